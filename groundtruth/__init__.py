@@ -1,0 +1,1 @@
+"""The ground truth: references and oracles, path traced with Mitsuba."""

@@ -1,0 +1,1 @@
+"""The oracles: one file per term, named after it."""

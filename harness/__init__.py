@@ -1,0 +1,1 @@
+"""lightmeter: how far a real-time frame is from the light that physics would give."""

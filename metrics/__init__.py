@@ -1,0 +1,1 @@
+"""Metrics: how far one image is from another, and how sure that is."""

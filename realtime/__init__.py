@@ -1,0 +1,1 @@
+"""The real-time renderer: frame graph, shared shaders and the effects."""

@@ -1,0 +1,1 @@
+"""Reports: results as JSON, HTML, heatmaps and JUnit XML."""

@@ -1,0 +1,1 @@
+"""Scenes: what is to be rendered, with no renderer's types in it."""

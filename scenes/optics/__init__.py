@@ -1,0 +1,1 @@
+"""What a scene's materials and lights mean, written once for both renderers."""
