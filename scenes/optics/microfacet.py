@@ -1,0 +1,65 @@
+"""GGX microfacets: distribution, height-correlated masking and shadowing, Fresnel, sampling of visible normals.
+
+`alpha` is the square of glTF's perceptual roughness. Cosines outside their range give 0 where a comment says so.
+"""
+
+from collections.abc import Callable
+
+from . import arrays as xp
+from .arrays import Array
+
+MIN_ALPHA = 1e-3
+"""The smallest α either side evaluates: below it a lobe is narrower than float32 resolves (design, section 3)."""
+
+
+def alpha_from_roughness(roughness: Array) -> Array:
+    """α = max(roughness², 1e-3) (Burley 2012, section 5.4; glTF 2.0, B.2.3)."""
+    return xp.maximum(roughness * roughness, MIN_ALPHA)
+
+
+def d_ggx(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
+    """GGX distribution of normals, 1/sr (Walter et al. 2007, eq. 33); 0 below the horizon.
+
+    `sin2_h` is |n × h|². The textbook's cos²θ·(α²−1)+1 cancels for small α; cos²θ·α² + sin²θ with the sine taken
+    from the cross product does not (as Filament's D_GGX does for half floats).
+    """
+    k = alpha / (n_dot_h * n_dot_h * alpha * alpha + sin2_h)
+    return xp.where(n_dot_h > 0, k * k * (1 / 3.141592653589793), 0 * k)
+
+
+def v_smith_ggx_correlated(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
+    """G/(4·n·v·n·l) with height-correlated Smith masking-shadowing (Heitz 2014, eq. 99). Cosines > 0."""
+    a2 = alpha * alpha
+    lambda_v = n_dot_l * xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2)
+    lambda_l = n_dot_v * xp.sqrt(n_dot_l * n_dot_l * (1 - a2) + a2)
+    return 0.5 / xp.maximum(lambda_v + lambda_l, 1e-30)
+
+
+def f_schlick(v_dot_h: Array, f0: Array, f90: Array) -> Array:
+    """Fresnel reflectance (Schlick 1994, eq. 15) between f0 and f90."""
+    m = xp.clip(1 - v_dot_h, 0.0, 1.0)
+    m2 = m * m
+    return f0 + (f90 - f0) * (m2 * m2 * m)
+
+
+def sample_visible_normal(v: Array, alpha: Array, u1: Array, u2: Array, vector: Callable) -> Array:
+    """A microfacet normal seen from v, with density D_v = G1·max(0, v·h)·D/(n·v) (Heitz 2018, listing 1).
+
+    v is in the local frame (n = +z, v.z > 0). `vector` builds a vector from x, y, z (Dr.Jit's
+    `Vector3f`; in NumPy `lambda *c: np.stack(c)`).
+    """
+    vh = xp.normalize(vector(alpha * v[0], alpha * v[1], v[2]))
+    length2 = vh[0] * vh[0] + vh[1] * vh[1]
+    inverse = xp.where(length2 > 0, 1 / xp.sqrt(xp.maximum(length2, 1e-38)), 0 * length2)
+    flat = length2 > 0
+    zero = 0 * inverse
+    t1 = vector(xp.where(flat, -vh[1] * inverse, 1 + zero), xp.where(flat, vh[0] * inverse, zero), zero)
+    t2 = xp.cross(vh, t1)
+    radius = xp.sqrt(u1)
+    sin_phi, cos_phi = xp.sincos(2 * 3.141592653589793 * u2)
+    p1 = radius * cos_phi
+    s = 0.5 * (1 + vh[2])
+    p2 = (1 - s) * xp.sqrt(xp.maximum(1 - p1 * p1, 0.0)) + s * (radius * sin_phi)
+    p3 = xp.sqrt(xp.maximum(1 - p1 * p1 - p2 * p2, 0.0))
+    nh = p1 * t1 + p2 * t2 + p3 * vh
+    return xp.normalize(vector(alpha * nh[0], alpha * nh[1], xp.maximum(nh[2], 1e-6)))
