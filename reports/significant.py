@@ -1,0 +1,81 @@
+"""Numbers as people read them: as many digits as the interval supports, and no more."""
+
+import math
+
+from lightmeter.metrics.measurement import Measurement
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def show_number(value: float, digits: int = 3) -> str:
+    """`value` with `digits` significant digits; "NaN", "∞" and "−∞" where it is not finite."""
+    if math.isnan(value):
+        return "NaN"
+    if math.isinf(value):
+        return "∞" if value > 0 else f"{MINUS}∞"
+    if value == 0:
+        return "0"
+    return _decimals(value, digits - 1 - math.floor(math.log10(abs(value))))
+
+
+def show_value(measurement: Measurement, digits: int = 3) -> str:
+    """The value alone, to two digits of its interval's half-width (at most six significant digits)."""
+    half = half_width(measurement)
+    if not math.isfinite(measurement.value):
+        return show_number(measurement.value)
+    if half is None or half == 0 or not math.isfinite(half):
+        return show_number(measurement.value, digits)
+    return _decimals(measurement.value, _places(measurement.value, half))
+
+
+def show_interval(measurement: Measurement) -> str:
+    """The interval alone: "± 0.00021" where it is symmetric, else "0.0119 … 0.0131"; "" where there is none."""
+    half = half_width(measurement)
+    if half is None or not math.isfinite(measurement.value):
+        return ""
+    low, high = measurement.low, measurement.high
+    if not math.isfinite(half):
+        return f"{show_number(low)} … {show_number(high)}"
+    if half == 0:
+        return "± 0"
+    places = _places(measurement.value, half)
+    if abs((high - measurement.value) - (measurement.value - low)) <= 0.1 * half:
+        return f"± {_decimals(half, places)}"
+    return f"{_decimals(low, places)} … {_decimals(high, places)}"
+
+
+def show_measurement(measurement: Measurement) -> str:
+    """Value, interval and unit in one line: "0.01234 ± 0.00021 W/sr/m²"."""
+    parts = [show_value(measurement), show_interval(measurement), measurement.unit]
+    if "…" in parts[1]:
+        parts[1] = f"({parts[1]})"
+    return " ".join(part for part in parts if part)
+
+
+def half_width(measurement: Measurement) -> float | None:
+    """Half the interval's width, None where there is no interval."""
+    if measurement.low is None or measurement.high is None:
+        return None
+    return (measurement.high - measurement.low) / 2
+
+
+def _places(value: float, half: float) -> int:
+    """Decimal places that show two digits of `half`, and at most six significant digits of `value`."""
+    places = 1 - math.floor(math.log10(half))
+    if value:
+        places = min(places, 5 - math.floor(math.log10(abs(value))))
+    return places
+
+
+def _decimals(value: float, places: int) -> str:
+    """`value` rounded at 10^-places; with a power of ten where plain digits would be a row of zeros."""
+    if value and (abs(value) >= 1e6 or (abs(value) < 1e-4 and places > 7)):
+        exponent = math.floor(math.log10(abs(value)))
+        if places + exponent < 0:
+            return "0"
+        mantissa = value / 10.0**exponent
+        return f"{mantissa:.{min(5, places + exponent)}f}e{exponent}".replace("-", MINUS)
+    shown = f"{round(value, places):.{max(0, places)}f}"
+    if float(shown) == 0:
+        shown = shown.lstrip("-")
+    return shown.replace("-", MINUS)
