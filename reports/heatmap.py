@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
 from lightmeter.reports.pictures import ErrorMap
 
 if TYPE_CHECKING:
