@@ -1,6 +1,7 @@
 """The box."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.lattice import joined
 from lightmeter.scenes.shapes.limits import check_length

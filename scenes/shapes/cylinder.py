@@ -1,6 +1,7 @@
 """The cylinder and the cone: a slanted wall around the Y axis, and its lids."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.disk import disk
 from lightmeter.scenes.shapes.lattice import joined, lattice, turn

@@ -1,6 +1,7 @@
 """The disk."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.lattice import turn
 from lightmeter.scenes.shapes.limits import AROUND, check_length, check_steps

@@ -1,6 +1,7 @@
 """Rows and columns of vertices: the topology that every shape here is made of."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 
 

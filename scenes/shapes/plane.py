@@ -1,6 +1,7 @@
 """Flat sheets: `plane` lies, `rectangle` stands."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.lattice import lattice
 from lightmeter.scenes.shapes.limits import ALONG, check_length, check_steps

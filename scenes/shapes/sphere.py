@@ -1,6 +1,7 @@
 """The sphere."""
 
 import numpy as np
+
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.lattice import lattice, turn
 from lightmeter.scenes.shapes.limits import AROUND, RINGS, check_length, check_steps

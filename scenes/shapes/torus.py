@@ -1,6 +1,7 @@
 """The torus."""
 
 import numpy as np
+
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.model import Mesh
 from lightmeter.scenes.shapes.lattice import lattice, turn

@@ -1,0 +1,61 @@
+"""Scene files in TOML.
+
+The keys are in `lightmeter.scenes.toml.entries`; `schema()` gives them as JSON Schema for editors.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from lightmeter.scenes.model import Scene
+
+LARGEST = 2**24
+"""Bytes of a scene file."""
+
+
+def schema() -> dict[str, Any]:
+    """The scene file's JSON Schema (draft 2020-12)."""
+    from lightmeter.scenes.toml.entries import SceneFile
+
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | SceneFile.model_json_schema()
+
+
+def load_toml(path: Path) -> Scene:
+    """The scene in a TOML file; files that it names are found from its folder, and lie there or below.
+
+    Raises:
+        SceneError: the file is missing, no TOML, has unknown keys or values out of range, or names a file that
+            is missing, damaged or out of its folder.
+    """
+    from lightmeter.scenes.checks import checked
+    from lightmeter.scenes.files import read_bytes
+    from lightmeter.scenes.toml.build import Builder
+
+    path = Path(path)
+    file = parse(read_bytes(path, LARGEST), str(path))
+    return checked(Builder(path.parent, str(path)).scene(file, path.stem), str(path))
+
+
+def parse(data: bytes, where: str):
+    """The checked content of a scene file, a `SceneFile`.
+
+    Raises:
+        SceneError: it is no TOML, or does not follow the schema.
+    """
+    import tomllib
+
+    from pydantic import ValidationError
+
+    from lightmeter.scenes.errors import SceneError
+    from lightmeter.scenes.toml.entries import SceneFile
+    from lightmeter.scenes.validation import explain
+
+    try:
+        content = tomllib.loads(data.decode("utf-8"))
+    except RecursionError:
+        raise SceneError("this TOML is nested too deeply", where=where) from None
+    except ValueError as error:  # TOMLDecodeError and UnicodeDecodeError are ValueErrors
+        raise SceneError(f"this is no TOML ({str(error)[:200]})", where=where) from None
+    try:
+        return SceneFile.model_validate(content)
+    except ValidationError as error:
+        raise explain(error, content, where) from None

@@ -1,0 +1,242 @@
+"""From a checked scene file to a scene."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from lightmeter.scenes import framing, shapes
+from lightmeter.scenes.errors import SceneError, nearest, shown
+from lightmeter.scenes.files import inside, read_bytes
+from lightmeter.scenes.images import read_image
+from lightmeter.scenes.model import (
+    Camera,
+    DirectionalLight,
+    Environment,
+    Image,
+    Material,
+    Mesh,
+    PointLight,
+    PunctualLight,
+    Scene,
+    Shape,
+    SpotLight,
+    Texture,
+    Vector,
+)
+from lightmeter.scenes.toml import entries
+from lightmeter.scenes.toml.placing import placement, unit
+
+COLOURED = ("base_color_texture", "emissive_texture")
+"""The textures whose colours are sRGB-encoded."""
+
+DEFAULT_MATERIAL = "default"
+
+
+@dataclass
+class Builder:
+    """Builds one scene file; keeps what several entries share.
+
+    Attributes:
+        folder: where relative file names start.
+        where: the scene file, for messages.
+    """
+
+    folder: Path
+    where: str
+    images: dict[Path, Image] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    brought_lights: list[PunctualLight] = field(default_factory=list)
+    brought_camera: Camera | None = None
+    brought_environment: Environment | None = None
+
+    def scene(self, file: entries.SceneFile, name: str) -> Scene:
+        """The scene that `file` describes, called `name` unless it says otherwise.
+
+        Raises:
+            SceneError: a file is missing or damaged, or a name is unknown.
+        """
+        materials = {key: self.material(key, entry, f"materials.{key}") for key, entry in file.materials.items()}
+        made: list[Shape] = []
+        for index, entry in enumerate(file.shapes):
+            made += self.shapes(entry, index, materials)
+        lights = [self.light(entry, index) for index, entry in enumerate(file.lights or [])]
+        lights += self.brought_lights
+        environment = Environment(file.environment.radiance) if file.environment else None
+        camera = self.camera(file.camera, made)
+        told = file.lights is not None or environment is not None
+        if not told and not lights and not any(shape.material.emits for shape in made):
+            lights, environment = framing.default_lights(camera)
+            self.notes.append(framing.LIGHTS_NOTE)
+        return Scene(
+            name=file.name or name,
+            shapes=tuple(made),
+            camera=camera,
+            lights=tuple(lights),
+            environment=environment,
+            max_depth=file.max_depth,
+            summary=file.summary,
+            notes=tuple(self.notes),
+        )
+
+    def camera(self, entry: entries.CameraEntry | None, made: list[Shape]) -> Camera:
+        if entry is None:
+            if self.brought_camera is not None:
+                return self.brought_camera
+            self.notes.append(framing.CAMERA_NOTE)
+            return framing.framed_camera(made)
+        if entry.matrix is not None:
+            matrix = rigid(np.array(entry.matrix), f"{self.where}: camera.matrix")
+        else:
+            assert entry.position is not None and entry.target is not None
+            matrix = framing.look_at(entry.position, entry.target, entry.up)
+        near, far = framing.clipping_distances(made, matrix)
+        far = entry.far if entry.far is not None else max(far, 2 * (entry.near or 0))
+        near = entry.near if entry.near is not None else min(near, far / 2)
+        yfov = None if entry.yfov is None else float(np.radians(entry.yfov))
+        return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure)
+
+    def material(self, name: str, entry: entries.MaterialEntry, place: str) -> Material:
+        values = {key: getattr(entry, key) for key in entries.MaterialEntry.model_fields}
+        for key, value in values.items():
+            if isinstance(value, entries.TextureEntry):
+                values[key] = self.texture(value, key in COLOURED, f"{place}.{key}")
+        return Material(name=name, **values)
+
+    def texture(self, entry: entries.TextureEntry, srgb: bool, place: str) -> Texture:
+        where = f"{self.where}: {place}"
+        path = inside(self.folder, entry.file, where)
+        if path not in self.images:
+            self.images[path] = read_image(read_bytes(path, where=where), entry.file, where)
+        wrap = entry.wrap or "repeat"
+        return Texture(
+            image=self.images[path],
+            srgb=srgb,
+            wrap_u=entry.wrap_u or wrap,
+            wrap_v=entry.wrap_v or wrap,
+            min_filter=entry.min_filter,
+            mag_filter=entry.mag_filter,
+            texcoord=entry.texcoord,
+            offset=entry.offset,
+            rotation=float(np.radians(entry.rotation)),
+            scale=entry.scale,
+        )
+
+    def light(self, entry: entries.LightEntry, index: int) -> PunctualLight:
+        name = entry.name or f"{entry.type} {index}"
+        if isinstance(entry, entries.DirectionalEntry):
+            return DirectionalLight(name, unit(entry.direction), _times(entry.irradiance, entry.color))
+        intensity = _times(entry.intensity, entry.color)
+        if isinstance(entry, entries.PointEntry):
+            return PointLight(name, entry.position, intensity)
+        direction = entry.direction
+        if direction is None:
+            direction = np.subtract(entry.target or (), entry.position)
+        inner, outer = np.radians((entry.inner, entry.outer))
+        return SpotLight(name, entry.position, unit(direction), intensity, float(inner), float(outer))
+
+    def shapes(self, entry: entries.ShapeEntry, index: int, materials: dict[str, Material]) -> list[Shape]:
+        place = f"shapes[{index}]"
+        where, matrix = f"{self.where}: {place}", placement(entry)
+        name = entry.name or f"{entry.type} {index}"
+        if isinstance(entry, entries.GltfEntry):
+            return self.whole_gltf(entry, name, matrix, where)
+        material = self.painted(entry, materials, where)
+        if isinstance(entry, entries.MeshEntry):
+            return [Shape(n, mesh, material, matrix @ m) for n, mesh, m in self.meshes(entry, name, where)]
+        try:
+            mesh = _SHAPES[type(entry)](entry)
+        except SceneError as error:
+            raise error.within(where) from None
+        return [Shape(name, mesh, material, matrix)]
+
+    def painted(self, entry: entries.Painted, materials: dict[str, Material], where: str) -> Material:
+        if entry.material is None:
+            return materials.get(DEFAULT_MATERIAL, Material(DEFAULT_MATERIAL))
+        if entry.material not in materials:
+            raise SceneError(
+                f"there is no material {shown(entry.material)}",
+                where=f"{where}.material",
+                remedy=nearest(entry.material, materials) or "add a table [materials.NAME]",
+            )
+        return materials[entry.material]
+
+    def meshes(self, entry: entries.MeshEntry, name: str, where: str) -> list[tuple[str, Mesh, np.ndarray]]:
+        """Name, triangles and place of each mesh in a file."""
+        where = f"{where}.file"
+        path = inside(self.folder, entry.file, where)
+        suffix = path.suffix.lower()
+        if suffix in (".gltf", ".glb"):
+            scene = self.gltf(path, where)
+            self.notes += [f"{name}: {note}" for note in scene.notes if note not in framing.NOTES]
+            return [(f"{name}/{s.name}", s.mesh, s.matrix) for s in scene.shapes]
+        if suffix == ".obj":
+            from lightmeter.scenes.obj import load_obj as read
+        elif suffix == ".ply":
+            from lightmeter.scenes.ply import load_ply as read
+        else:
+            raise SceneError(
+                "this is no mesh file", where=where, expected=".obj, .ply, .gltf or .glb", actual=entry.file
+            )
+        mesh, notes = read(path)
+        self.notes += [f"{name}: {note}" for note in notes]
+        return [(name, mesh, np.eye(4))]
+
+    def gltf(self, path: Path, where: str) -> Scene:
+        from lightmeter.scenes.gltf import load_gltf
+
+        read_bytes(path, where=where)
+        return load_gltf(path)
+
+    def whole_gltf(self, entry: entries.GltfEntry, name: str, matrix: np.ndarray, where: str) -> list[Shape]:
+        scene = self.gltf(inside(self.folder, entry.file, f"{where}.file"), f"{where}.file")
+        self.notes += [f"{name}: {note}" for note in scene.notes if note not in framing.NOTES]
+        if framing.LIGHTS_NOTE not in scene.notes and entry.lights:
+            self.brought_lights += [_moved(light, matrix) for light in scene.lights]
+        if framing.CAMERA_NOTE not in scene.notes and self.brought_camera is None:
+            moved = rigid(matrix @ scene.camera.matrix, where)
+            self.brought_camera = replace(scene.camera, matrix=moved)
+        return [replace(s, name=f"{name}/{s.name}", matrix=matrix @ s.matrix) for s in scene.shapes]
+
+
+_SHAPES: dict[type, Callable[..., Mesh]] = {
+    entries.PlaneEntry: lambda e: shapes.plane(e.width, e.depth, e.segments),
+    entries.RectangleEntry: lambda e: shapes.rectangle(e.width, e.height, e.segments),
+    entries.BoxEntry: lambda e: shapes.box(e.width, e.height, e.depth, e.segments),
+    entries.SphereEntry: lambda e: shapes.sphere(e.radius, e.segments, e.rings),
+    entries.TorusEntry: lambda e: shapes.torus(e.major, e.minor, e.segments, e.rings),
+    entries.CylinderEntry: lambda e: shapes.cylinder(e.radius, e.height, e.segments, e.rings, e.caps),
+    entries.ConeEntry: lambda e: shapes.cone(e.radius, e.height, e.segments, e.rings, e.cap),
+    entries.DiskEntry: lambda e: shapes.disk(e.radius, e.segments),
+}
+
+
+def rigid(matrix: np.ndarray, where: str) -> np.ndarray:
+    """The rotation and translation in `matrix` (4, 4): its line of sight is kept, then its up.
+
+    Raises:
+        SceneError: no line of sight is left.
+    """
+    matrix = np.asarray(matrix, dtype=np.float64)
+    eye, backward, up = matrix[:3, 3], matrix[:3, 2], matrix[:3, 1]
+    length = np.linalg.norm(backward)
+    if not np.isfinite(matrix).all() or not 1e-12 < length < 1e12 or not np.linalg.norm(up) > 1e-12:
+        raise SceneError("this matrix leaves a camera no direction", where=where, remedy="use a rotation")
+    out = framing.look_at((0.0, 0.0, 0.0), tuple(-backward / length), tuple(up / np.linalg.norm(up)))
+    out[:3, 3] = eye
+    return out
+
+
+def _times(radiant: Vector, color: Vector) -> Vector:
+    return radiant[0] * color[0], radiant[1] * color[1], radiant[2] * color[2]
+
+
+def _moved(light: PunctualLight, matrix: np.ndarray) -> PunctualLight:
+    """The light at another place; its strength is not scaled."""
+    if not isinstance(light, PointLight):
+        light = replace(light, direction=unit(matrix[:3, :3] @ np.array(light.direction)))
+    if not isinstance(light, DirectionalLight):
+        x, y, z = matrix[:3, :3] @ np.array(light.position) + matrix[:3, 3]
+        light = replace(light, position=(float(x), float(y), float(z)))
+    return light
