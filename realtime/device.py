@@ -1,0 +1,119 @@
+"""The OpenGL context, and the one place where GL objects are made, so that they can be counted."""
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from .shaders import Source, explain
+
+FULLSCREEN = """#version 410
+void main() {
+    // One triangle that covers the screen: (−1, −1), (3, −1), (−1, 3).
+    vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+"""
+
+
+class DeviceError(RuntimeError):
+    """No OpenGL context, or a shader that does not compile; the message says what to do."""
+
+
+class Device:
+    """A headless OpenGL 4.1 context.
+
+    Attributes:
+        counts: how many "shaders", "textures" and "draws" were made so far.
+        software: whether the rasteriser runs on the CPU and defers work (section 5 of the design).
+    """
+
+    def __init__(self) -> None:
+        import moderngl
+
+        try:
+            self.gl = moderngl.create_context(standalone=True, backend="egl", require=410)
+        except Exception as first:
+            try:  # macOS and Windows have no EGL; their own back end is moderngl's default
+                self.gl = moderngl.create_context(standalone=True, require=410)
+            except Exception:
+                raise DeviceError(
+                    f"no OpenGL 4.1 context could be made ({first}); `lightmeter doctor` names what to install"
+                ) from None
+        self.gl.gc_mode = "auto"
+        self.counts: Counter[str] = Counter()
+        self.renderer = str(self.gl.info["GL_RENDERER"])
+        self.version = str(self.gl.info["GL_VERSION"])
+        self.software = any(name in self.renderer.lower() for name in ("llvmpipe", "softpipe", "swiftshader"))
+
+    def program(self, fragment: Source, vertex: Source | None = None):
+        """A linked program; without a vertex shader, one for `fullscreen`.
+
+        Raises:
+            DeviceError: where it does not compile, with the lines at fault.
+        """
+        import moderngl
+
+        self.counts["shaders"] += 1
+        vertex_text = vertex.text if vertex else FULLSCREEN
+        try:
+            return self.gl.program(vertex_shader=vertex_text, fragment_shader=fragment.text)
+        except moderngl.Error as error:
+            raise DeviceError(explain(str(error), fragment.text)) from None
+
+    def target(self, size: tuple[int, int], components: int = 4, dtype: str = "f4"):
+        """A texture that is drawn into and read texel by texel."""
+        self.counts["textures"] += 1
+        texture = self.gl.texture(size, components, dtype=dtype)
+        texture.filter = (self.gl.NEAREST, self.gl.NEAREST)
+        return texture
+
+    def depth(self, size: tuple[int, int]):
+        """A depth buffer that can be read as a texture, without comparison."""
+        self.counts["textures"] += 1
+        texture = self.gl.depth_texture(size)
+        texture.compare_func = ""
+        texture.filter = (self.gl.NEAREST, self.gl.NEAREST)
+        texture.repeat_x = texture.repeat_y = False
+        return texture
+
+    def framebuffer(self, colors: Iterable[Any], depth: Any = None):
+        """A framebuffer over existing textures."""
+        return self.gl.framebuffer(list(colors), depth)
+
+    def fullscreen(self, program):
+        """A vertex array that covers the screen with one triangle."""
+        return self.gl.vertex_array(program, [])
+
+    def draw(self, vertices, count: int = -1, first: int = 0) -> None:
+        """Draw triangles."""
+        self.counts["draws"] += 1
+        vertices.render(self.gl.TRIANGLES, vertices=count, first=first)
+
+    def finish(self) -> None:
+        """Wait until everything drawn so far is done."""
+        self.gl.finish()
+
+    def read(self, texture) -> np.ndarray:
+        """(H, W, C) of a texture, row 0 at the top."""
+        dtype = {"f4": np.float32, "f1": np.uint8, "i4": np.int32, "u4": np.uint32}[texture.dtype]
+        width, height = texture.size
+        data = np.frombuffer(texture.read(alignment=1), dtype=dtype)
+        return data.reshape(height, width, texture.components)[::-1]
+
+
+def set_uniforms(program, values: dict[str, Any]) -> None:
+    """Set those uniforms that the program really uses; matrices are (4, 4), written column by column."""
+    for name, value in values.items():
+        if name not in program:
+            continue
+        array = np.asarray(value)
+        if array.shape == (4, 4):
+            program[name].write(np.ascontiguousarray(array.T, dtype=np.float32).tobytes())
+        elif array.ndim == 2:
+            program[name].write(np.ascontiguousarray(array, dtype=np.float32).tobytes())
+        elif array.ndim == 1:
+            program[name].value = tuple(float(x) for x in array)
+        else:
+            program[name].value = value if isinstance(value, (int, bool)) else float(value)

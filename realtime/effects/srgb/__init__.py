@@ -1,0 +1,10 @@
+"""The sRGB transfer function, exactly."""
+
+from ...effect import Effect
+
+EFFECT = Effect(
+    name="srgb",
+    terms=("encode",),
+    summary="The piecewise sRGB curve, written to 8 bits.",
+    citation="IEC 61966-2-1:1999",
+)

@@ -1,0 +1,122 @@
+"""The scene's triangles and textures on the device."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lightmeter.scenes.model import Image, Material, Mesh, Scene, Texture
+
+from .device import Device
+
+GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT = 0x2901, 0x812F, 0x8370
+GL_SRGB8_ALPHA8 = 0x8C43
+FILTERS = {
+    "nearest": 0x2600,
+    "linear": 0x2601,
+    "nearest_mipmap_nearest": 0x2700,
+    "linear_mipmap_nearest": 0x2701,
+    "nearest_mipmap_linear": 0x2702,
+    "linear_mipmap_linear": 0x2703,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """One shape, ready to draw.
+
+    Attributes:
+        attributes: name to (format, buffer), for the vertex array of any program.
+        buffers: name to buffer object.
+        count: how many vertices are drawn.
+    """
+
+    shape: int
+    material: Material
+    buffers: dict[str, tuple[str, Any]]
+    indices: Any | None
+    count: int
+
+    @property
+    def has(self) -> frozenset[str]:
+        """The attributes it has beyond the position."""
+        return frozenset(self.buffers) - {"position"}
+
+    def vertices(self, device: Device, program):
+        """A vertex array of just those attributes that the program reads."""
+        content = [(buffer, fmt, name) for name, (fmt, buffer) in self.buffers.items() if name in program]
+        return device.gl.vertex_array(program, content, self.indices)
+
+
+class Geometry:
+    """Uploads every shape once. Textures are uploaded when first asked for."""
+
+    def __init__(self, device: Device, scene: Scene) -> None:
+        self._device = device
+        self._textures: dict[Texture, Any] = {}
+        self.batches = [
+            self._batch(index, shape.world, shape.material)
+            for index, shape in enumerate(scene.shapes)
+            if len(shape.mesh.triangles)
+        ]
+
+    def _batch(self, index: int, mesh: Mesh, material: Material) -> Batch:
+        arrays, indices = vertex_arrays(mesh, tangents="normal" in material.textures, texcoords=bool(material.textures))
+        gl = self._device.gl
+        buffers = {name: (f"{array.shape[1]}f", gl.buffer(array.tobytes())) for name, array in arrays.items()}
+        elements = None if indices is None else gl.buffer(indices.astype(np.uint32).tobytes())
+        return Batch(index, material, buffers, elements, mesh.triangles.size)
+
+    def texture(self, texture: Texture):
+        """The texture on the device, with its filters and, where they ask for it, its mipmaps."""
+        if texture not in self._textures:
+            self._textures[texture] = self._upload(texture)
+        return self._textures[texture]
+
+    def _upload(self, texture: Texture):
+        texels = rgba(texture.image)
+        height, width = texels.shape[:2]
+        self._device.counts["textures"] += 1
+        gl = self._device.gl
+        if texels.dtype == np.uint8:
+            internal = GL_SRGB8_ALPHA8 if texture.srgb else None
+            out = gl.texture((width, height), 4, texels.tobytes(), internal_format=internal)
+        else:
+            out = gl.texture((width, height), 4, texels.tobytes(), dtype="f4")
+        if "mipmap" in texture.min_filter:
+            out.build_mipmaps()
+        out.filter = (FILTERS[texture.min_filter], FILTERS[texture.mag_filter])
+        return out
+
+
+def rgba(image: Image) -> np.ndarray:
+    """(H, W, 4) texels; grey is spread, alpha is 1 where there is none."""
+    texels = image.texels
+    one = 255 if texels.dtype == np.uint8 else 1
+    channels = texels.shape[2]
+    color = texels[..., :3] if channels >= 3 else np.repeat(texels[..., :1], 3, axis=2)
+    alpha = texels[..., -1:] if channels in (2, 4) else np.full_like(texels[..., :1], one)
+    return np.ascontiguousarray(np.concatenate([color, alpha], axis=2))
+
+
+def vertex_arrays(mesh: Mesh, *, tangents: bool, texcoords: bool) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
+    """Attribute arrays (N, C) float32 and indices; a mesh without normals is unrolled and given its faces' normals."""
+    arrays = {"position": mesh.positions}
+    if mesh.normals is not None:
+        arrays["normal"] = mesh.normals
+    if texcoords:
+        arrays |= {f"texcoord{i}": uv for i, uv in enumerate(mesh.texcoords[:2])}
+    if tangents and mesh.tangents is not None:
+        arrays["tangent"] = mesh.tangents
+    if mesh.colors is not None:
+        arrays["color"] = mesh.colors
+    if mesh.normals is not None:
+        return arrays, mesh.triangles
+    corners = mesh.triangles.ravel()
+    arrays = {name: array[corners] for name, array in arrays.items()}
+    a, b, c = (arrays["position"][i::3].astype(np.float64) for i in range(3))
+    faces = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(faces, axis=1, keepdims=True)
+    faces /= np.where(lengths > 0, lengths, 1)
+    arrays["normal"] = np.repeat(faces, 3, axis=0).astype(np.float32)
+    return arrays, None

@@ -1,0 +1,185 @@
+"""The frame graph, compiled in plain Python: which effects draw what, in which order, and what is left out and why."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from lightmeter.scenes.features import missing_terms
+from lightmeter.scenes.model import Scene
+from lightmeter.scenes.terms import TERMS
+
+from .effect import Effect, EffectError, Knobs, nearest
+
+FACTORS = {"direct": "visibility", "environment": "environment_visibility"}
+"""Which visibility a radiance is multiplied with."""
+
+DRAWN_TERMS = ("direct", "visibility", "environment", "environment_visibility", "indirect", "tone", "encode")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What the user asked for.
+
+    Attributes:
+        only: take just these effects; empty: all.
+        without: leave these out.
+        use: prefer these among effects for the same term.
+        settings: knob values by effect and knob.
+    """
+
+    only: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
+    use: tuple[str, ...] = ()
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Something that costs nothing in this frame, and the reason."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """One effect drawing what it writes, for one light (its index in `Scene.all_lights`) or for the frame."""
+
+    effect: str
+    writes: tuple[str, ...]
+    reads: tuple[str, ...] = ()
+    light: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A compiled frame.
+
+    Attributes:
+        steps: what is drawn after the G-buffer, in order.
+        channels: the G-buffer channels that the steps read.
+        effects: the effects that take part, with every knob's value.
+        left_out: what does not, and why.
+        not_approximated: terms that the scene has and no effect gives.
+    """
+
+    scene: Scene
+    steps: tuple[Step, ...]
+    channels: frozenset[str]
+    effects: Mapping[str, tuple[Effect, Knobs]]
+    left_out: tuple[LeftOut, ...]
+    not_approximated: tuple[str, ...]
+
+    def effect_of(self, term: str) -> str | None:
+        """The name of the effect that gives a term of the frame; None where none does."""
+        return next((name for name, (effect, _) in self.effects.items() if term in effect.terms), None)
+
+    def lights_of(self, effect: str) -> tuple[int, ...]:
+        """The lights an effect is drawn for."""
+        return tuple(step.light for step in self.steps if step.effect == effect and step.light is not None)
+
+
+def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | None = None) -> Plan:
+    """Choose the effects that `scene` needs and order what they draw.
+
+    Raises:
+        EffectError: where the choice names an effect or a knob that does not exist, or a value out of range.
+    """
+    choice = choice or Choice()
+    _check_names(choice, known)
+    settings = {name: effect.settings(choice.settings.get(name, {})) for name, effect in known.items()}
+    missing = missing_terms(scene)
+    candidates, left_out = _candidates(scene, known, choice, missing)
+
+    steps, uncovered = _steps(scene, candidates, missing)
+    taken = {step.effect for step in steps}
+    coverage = next((e for e in candidates if "coverage" in e.terms), None)
+    if coverage:
+        taken.add(coverage.name)
+    else:
+        uncovered.append("coverage")
+    left_out += [_superseded(e, steps, taken, missing) for e in candidates if e.name not in taken]
+    left_out += _idle_terms(missing, candidates)
+    used = {name: (known[name], settings[name]) for name in known if name in taken}
+    channels = frozenset(channel for effect, _ in used.values() for channel in effect.channels)
+    return Plan(scene, tuple(steps), channels, used, tuple(left_out), tuple(uncovered))
+
+
+def _check_names(choice: Choice, known: Mapping[str, Effect]) -> None:
+    for name in (*choice.only, *choice.without, *choice.use, *choice.settings):
+        if name not in known:
+            raise EffectError(f"there is no effect {name!r}; {nearest(name, list(known))}")
+
+
+def _candidates(scene: Scene, known: Mapping[str, Effect], choice: Choice, missing: Mapping[str, str]):
+    """The effects this scene needs and the user allows, the preferred ones first; and the others, with reasons."""
+    kept, left_out = [], []
+    for name, effect in known.items():
+        absent = [missing[term] for term in effect.terms if term in missing]
+        if choice.only and name not in choice.only:
+            left_out.append(LeftOut(name, "not among the effects asked for"))
+        elif name in choice.without:
+            left_out.append(LeftOut(name, "left out as asked"))
+        elif len(absent) == len(effect.terms):
+            left_out.append(LeftOut(name, absent[0]))
+        elif reason := effect.unneeded(scene):
+            left_out.append(LeftOut(name, reason))
+        else:
+            kept.append(effect)
+    kept.sort(key=lambda e: (e.name not in choice.use, e.rank, e.name))
+    return kept, left_out
+
+
+def _steps(scene: Scene, candidates: list[Effect], missing: Mapping[str, str]) -> tuple[list[Step], list[str]]:
+    """The steps in order: light by light, then what belongs to the frame, then the display; and terms without one."""
+    steps: list[Step] = []
+    uncovered: dict[str, None] = {}
+
+    def first(term: str, light: int | None = None) -> Effect | None:
+        if term in missing:
+            return None
+        for effect in candidates:
+            if term in effect.terms and (light is None or effect.lights(scene, scene.all_lights[light])):
+                return effect
+        uncovered.setdefault(term)
+        return None
+
+    for light in range(len(scene.all_lights)):
+        visibility, direct = first("visibility", light), first("direct", light)
+        if direct is None:
+            continue  # a visibility that nothing multiplies is not drawn
+        if visibility:
+            steps.append(Step(visibility.name, ("visibility",), (), light))
+        steps.append(Step(direct.name, ("direct",), ("visibility",) if visibility else (), light))
+
+    environment, indirect = first("environment"), first("indirect")
+    visibility = first("environment_visibility")
+    if visibility and environment:
+        steps.append(Step(visibility.name, ("environment_visibility",)))
+    factor = ("environment_visibility",) if visibility and environment else ()
+    if environment and environment is indirect:
+        steps.append(Step(environment.name, ("environment", "indirect"), factor))
+    else:
+        if environment:
+            steps.append(Step(environment.name, ("environment",), factor))
+        if indirect:
+            steps.append(Step(indirect.name, ("indirect",)))
+    for term in ("tone", "encode"):
+        if effect := first(term):
+            steps.append(Step(effect.name, (term,), ("radiance" if term == "tone" else "tone",)))
+    return steps, list(uncovered)
+
+
+def _superseded(effect: Effect, steps: list[Step], taken: set[str], missing: Mapping[str, str]) -> LeftOut:
+    """Why a candidate was not taken."""
+    others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)} & taken)
+    if others:
+        return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(effect.terms)} already")
+    if any(TERMS[term].scope == "light" for term in effect.terms):
+        return LeftOut(effect.name, "the scene has no light of the kinds it handles")
+    return LeftOut(effect.name, f"nothing in this frame reads {', '.join(effect.terms)}")
+
+
+def _idle_terms(missing: Mapping[str, str], candidates: list[Effect]) -> list[LeftOut]:
+    """The terms that the scene does not have: no pass and no oracle."""
+    return [LeftOut(f"term {term}", why) for term, why in missing.items()]

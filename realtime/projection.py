@@ -1,0 +1,42 @@
+"""The camera's matrices, with the conventions of `scenes.model`."""
+
+import numpy as np
+
+from lightmeter.scenes.model import Camera
+
+
+def view_matrix(camera: Camera) -> np.ndarray:
+    """(4, 4) float64: world to camera."""
+    return np.linalg.inv(camera.matrix)
+
+
+def projection_matrix(camera: Camera, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
+    """(4, 4) float64: camera to clip space.
+
+    Args:
+        size: width and height in pixels; the height holds the camera's field, the width follows.
+        offset: where in the pixel the scene is sampled, in pixels right and down from its centre.
+    """
+    width, height = size
+    near, far = camera.near, camera.far
+    matrix = np.zeros((4, 4))
+    if camera.yfov is not None:
+        scale = 1 / np.tan(camera.yfov / 2)
+        matrix[2] = 0, 0, (far + near) / (near - far), 2 * far * near / (near - far)
+        matrix[3, 2] = -1
+    else:
+        scale = 1 / camera.ymag
+        matrix[2] = 0, 0, 2 / (near - far), (far + near) / (near - far)
+        matrix[3, 3] = 1
+    matrix[0, 0], matrix[1, 1] = scale * height / width, scale
+    # Sampling further right moves the picture left; image rows run down, clip space runs up.
+    shift = np.eye(4)
+    shift[0, 3], shift[1, 3] = -2 * offset[0] / width, 2 * offset[1] / height
+    return shift @ matrix
+
+
+def viewer(camera: Camera) -> np.ndarray:
+    """(4,) what shaders compute the direction to the viewer from: position and 1, or for parallel rays direction and 0."""
+    if camera.yfov is not None:
+        return np.append(camera.position, 1.0)
+    return np.append(camera.matrix[:3, 2] / np.linalg.norm(camera.matrix[:3, 2]), 0.0)

@@ -1,0 +1,72 @@
+// The G-buffer: what the surface seen by a pixel is made of (deferred shading, Saito & Takahashi 1990).
+#include "textures.glsl"
+#include "normal_map.glsl"
+uniform vec4 viewer;            // xyz: position, w = 1; or direction, w = 0
+uniform vec4 base_color_factor; // a: alpha
+uniform float metallic_factor;
+uniform float roughness_factor;
+uniform float specular_factor;
+uniform vec3 emissive_factor;
+uniform float normal_scale;
+uniform float occlusion_strength;
+uniform float alpha_cutoff;
+uniform int shape;
+in vec3 world_position;
+in vec3 vertex_normal;
+#ifdef HAS_TEXCOORD0
+in vec2 uv0;
+#endif
+#ifdef HAS_TEXCOORD1
+in vec2 uv1;
+#endif
+#ifdef HAS_TANGENT
+in vec4 vertex_tangent;
+#endif
+#ifdef HAS_COLOR
+in vec4 vertex_color;
+#endif
+TEXTURE_DECLARATIONS
+ATTACHMENTS
+
+void main() {
+    vec4 base_color = base_color_factor;
+#ifdef HAS_COLOR
+    base_color *= vertex_color;
+#endif
+#ifdef TEXTURE_BASE_COLOR
+    base_color *= look_up_base_color();
+#endif
+#ifdef ALPHA_MASK
+    if (base_color.a < alpha_cutoff) discard;
+#endif
+    vec3 normal = vertex_normal;
+#if defined(TEXTURE_NORMAL) && defined(HAS_TANGENT)
+    normal = tangent_to_world(vertex_tangent.xyz, vertex_tangent.w, vertex_normal,
+                              decode_normal(look_up_normal().rgb, normal_scale));
+#else
+    normal = normalize(normal);
+#endif
+    vec3 emission = emissive_factor;
+#ifdef TEXTURE_EMISSIVE
+    emission *= look_up_emissive().rgb;
+#endif
+    float metallic = metallic_factor;
+    float roughness = roughness_factor;
+#ifdef TEXTURE_METALLIC_ROUGHNESS
+    vec4 metallic_roughness = look_up_metallic_roughness();
+    metallic *= metallic_roughness.b;
+    roughness *= metallic_roughness.g;
+#endif
+    float occlusion = 1.0;
+#ifdef TEXTURE_OCCLUSION
+    occlusion = 1.0 + occlusion_strength * (look_up_occlusion().r - 1.0);
+#endif
+#ifdef DOUBLE_SIDED
+    normal = gl_FrontFacing ? normal : -normal;
+#else
+    // The back of a single-sided surface is opaque and black: no normal, no reflection, no emission.
+    normal = gl_FrontFacing ? normal : vec3(0.0);
+    emission = gl_FrontFacing ? emission : vec3(0.0);
+#endif
+    WRITES
+}

@@ -1,0 +1,55 @@
+// What full-screen passes know of the surface behind a pixel; members are there where the G-buffer holds them.
+uniform sampler2D gbuffer_position;
+#ifdef GBUFFER_NORMAL_ROUGHNESS
+uniform sampler2D gbuffer_normal_roughness;
+#endif
+#ifdef GBUFFER_BASE_COLOR_METALLIC
+uniform sampler2D gbuffer_base_color_metallic;
+#endif
+#ifdef GBUFFER_SPECULAR_OCCLUSION
+uniform sampler2D gbuffer_specular_occlusion;
+#endif
+uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
+
+struct Surface {
+    vec3 position;
+    vec3 normal;
+    vec3 view;
+    vec3 base_color;
+    float metallic;
+    float roughness;
+    float specular;
+    float occlusion;
+};
+
+// False where the pixel shows no surface, or one seen from the dark side of its normal (n·v ≤ 0): there nothing is
+// reflected (the one rule for back-facing directions, scenes/optics/material.py).
+bool load_surface(ivec2 pixel, out Surface surface) {
+    vec4 position = texelFetch(gbuffer_position, pixel, 0);
+    if (position.w == 0.0) return false;
+    surface.position = position.xyz;
+    surface.view = normalize(viewer.xyz - viewer.w * position.xyz);
+#ifdef GBUFFER_NORMAL_ROUGHNESS
+    vec4 normal_roughness = texelFetch(gbuffer_normal_roughness, pixel, 0);
+    surface.normal = normal_roughness.xyz;
+    surface.roughness = normal_roughness.w;
+    if (dot(surface.normal, surface.view) <= 0.0) return false;
+#endif
+#ifdef GBUFFER_BASE_COLOR_METALLIC
+    vec4 base_color_metallic = texelFetch(gbuffer_base_color_metallic, pixel, 0);
+    surface.base_color = base_color_metallic.rgb;
+    surface.metallic = base_color_metallic.a;
+#endif
+#ifdef GBUFFER_SPECULAR_OCCLUSION
+    vec2 specular_occlusion = texelFetch(gbuffer_specular_occlusion, pixel, 0).rg;
+    surface.specular = specular_occlusion.r;
+    surface.occlusion = specular_occlusion.g;
+#endif
+#ifdef CONSTANT_SPECULAR
+    surface.specular = CONSTANT_SPECULAR;
+#endif
+#ifdef CONSTANT_OCCLUSION
+    surface.occlusion = CONSTANT_OCCLUSION;
+#endif
+    return true;
+}
