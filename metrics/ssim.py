@@ -1,0 +1,112 @@
+"""Structural similarity.
+
+Wang, Bovik, Sheikh, Simoncelli: "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE
+TIP 2004; scikit-image's implementation with the paper's window: Gaussian, σ = 1.5, 11 × 11.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .comparison import Comparison
+from .input_error import InputError
+from .measurement import Measurement
+from .noisy_mean import measure_noisy_mean
+
+WINDOW = 11
+_RADIUS = WINDOW // 2
+
+
+def ssim_map(tested: np.ndarray, reference: np.ndarray, data_range: float = 1.0) -> np.ndarray:
+    """SSIM per pixel, mean over channels, in [−1, 1]; 1 is equal.
+
+    Args:
+        tested: (H, W, 3), both sides at least 11.
+        reference: the same.
+        data_range: the difference between the largest and the smallest value a pixel may have.
+
+    Returns:
+        (H, W) float32, NaN in the border of 5 pixels where the window leaves the image.
+
+    Raises:
+        InputError: an image is smaller than the window, or the sizes differ.
+    """
+    from skimage.metrics import structural_similarity
+
+    if tested.shape != reference.shape:
+        raise InputError(
+            "the images differ in size",
+            expected=str(reference.shape),
+            actual=str(tested.shape),
+            remedy="Render or resample one of them to the other's size.",
+        )
+    if min(reference.shape[:2]) < WINDOW:
+        raise InputError(
+            "the images are smaller than SSIM's window",
+            expected=f"at least {WINDOW}×{WINDOW} pixels",
+            actual=f"{reference.shape[1]}×{reference.shape[0]}",
+            remedy="Use larger images, or a pixel-wise metric such as rmse.",
+        )
+    _, similarity = structural_similarity(
+        np.asarray(tested, np.float32),
+        np.asarray(reference, np.float32),
+        data_range=data_range,
+        channel_axis=2,
+        gaussian_weights=True,
+        sigma=1.5,
+        use_sample_covariance=False,
+        full=True,
+    )
+    result = similarity.mean(axis=2, dtype=np.float32)
+    inside = np.zeros(result.shape, bool)
+    inside[_RADIUS:-_RADIUS, _RADIUS:-_RADIUS] = True
+    result[~inside] = np.nan
+    return result
+
+
+def ssim(
+    comparison: Comparison,
+    display: Callable[[np.ndarray], np.ndarray] | None = None,
+    data_range: float = 1.0,
+    groups: int = 4,
+) -> Measurement:
+    """Mean SSIM of the display images, 1 is equal.
+
+    Values outside [0, data_range] are taken as they are. Reported as `noisy_mean` says.
+
+    Args:
+        comparison: the two sides, scene-linear, or display values where `display` is None.
+        display: maps (H, W, 3) scene-linear to display values; put on both sides.
+        data_range: the range of display values, 1 for [0, 1].
+        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+
+    Raises:
+        InputError: the images are smaller than 11 × 11, or no pixel of the mask is 5 pixels from the border.
+    """
+    inner = slice(_RADIUS, -_RADIUS)
+    if comparison.mask is not None and min(comparison.height, comparison.width) >= WINDOW:
+        count = int(comparison.mask[inner, inner].sum())
+        if count == 0:
+            raise InputError(
+                "SSIM's window leaves the image at every pixel of the mask",
+                expected=f"a pixel at least {_RADIUS} from the border",
+                actual="none",
+                remedy="Widen the mask, or use a pixel-wise metric such as rmse.",
+            )
+
+    mask = comparison.mask
+
+    def inside_mean(tested: np.ndarray, reference: np.ndarray) -> np.ndarray:
+        found = ssim_map(tested, reference, data_range)
+        # The border has no value: its pixels take the mean of the others, so that the mean is theirs.
+        inside = found[inner, inner] if mask is None else found[inner, inner][mask[inner, inner]]
+        return np.full(found.shape, np.mean(inside, dtype=np.float64))
+
+    return measure_noisy_mean(
+        comparison,
+        inside_mean,
+        how=f"SSIM, {WINDOW}×{WINDOW} Gaussian window, data range {data_range:g}",
+        display=display,
+        groups=groups,
+        spatial=True,
+    )
