@@ -104,15 +104,16 @@ class Device:
 
 
 def set_uniforms(program, values: dict[str, Any]) -> None:
-    """Set those uniforms that the program really uses; matrices are (4, 4), written column by column."""
+    """Set those uniforms that the program really uses.
+
+    Matrices are (4, 4), or (n, 4, 4) for an array of them, as they are written on paper: column vectors.
+    """
     for name, value in values.items():
         if name not in program:
             continue
         array = np.asarray(value)
-        if array.shape == (4, 4):
-            program[name].write(np.ascontiguousarray(array.T, dtype=np.float32).tobytes())
-        elif array.ndim == 2:
-            program[name].write(np.ascontiguousarray(array, dtype=np.float32).tobytes())
+        if array.shape[-2:] == (4, 4):
+            program[name].write(np.ascontiguousarray(array.swapaxes(-1, -2), dtype=np.float32).tobytes())
         elif array.ndim == 1:
             program[name].value = tuple(float(x) for x in array)
         else:

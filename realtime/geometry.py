@@ -1,6 +1,7 @@
 """The scene's triangles and textures on the device."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -48,11 +49,36 @@ class Batch:
         return device.gl.vertex_array(program, content, self.indices)
 
 
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """The positions of every opaque shape in one buffer, for passes that need nothing else.
+
+    Attributes:
+        spans: shape to (first index, number of indices).
+    """
+
+    positions: Any
+    indices: Any
+    spans: dict[int, tuple[int, int]]
+
+    def vertices(self, device: Device, program):
+        """A vertex array for a program that reads `position`."""
+        return device.gl.vertex_array(program, [(self.positions, "3f", "position")], self.indices)
+
+    def ranges(self, excluded: int | None = None) -> list[tuple[int, int]]:
+        """(first, count) of the indices to draw: all but the excluded shape's."""
+        total = sum(count for _, count in self.spans.values())
+        if excluded not in self.spans:
+            return [(0, total)] if total else []
+        first, count = self.spans[excluded]
+        return [(a, n) for a, n in ((0, first), (first + count, total - first - count)) if n]
+
+
 class Geometry:
     """Uploads every shape once. Textures are uploaded when first asked for."""
 
     def __init__(self, device: Device, scene: Scene) -> None:
-        self._device = device
+        self._device, self._scene = device, scene
         self._textures: dict[Texture, Any] = {}
         self.batches = [
             self._batch(index, shape.world, shape.material)
@@ -66,6 +92,26 @@ class Geometry:
         buffers = {name: (f"{array.shape[1]}f", gl.buffer(array.tobytes())) for name, array in arrays.items()}
         elements = None if indices is None else gl.buffer(indices.astype(np.uint32).tobytes())
         return Batch(index, material, buffers, elements, mesh.triangles.size)
+
+    @cached_property
+    def solid(self) -> Solid:
+        """Every opaque shape's positions, uploaded when first asked for."""
+        positions, indices, spans = [np.zeros((0, 3), np.float32)], [np.zeros(0, np.uint32)], {}
+        vertices = count = 0
+        for index, shape in enumerate(self._scene.shapes):
+            if shape.material.alpha_mode == "mask" or not len(shape.mesh.triangles):
+                continue
+            mesh = shape.world
+            positions.append(mesh.positions)
+            indices.append(mesh.triangles.ravel() + np.uint32(vertices))
+            spans[index] = (count, mesh.triangles.size)
+            vertices += len(mesh.positions)
+            count += mesh.triangles.size
+        gl = self._device.gl
+        # A buffer cannot be empty: one vertex more is never drawn.
+        content = np.concatenate([*positions, np.zeros((1, 3), np.float32)])
+        elements = np.concatenate([*indices, np.zeros(1, np.uint32)])
+        return Solid(gl.buffer(content.tobytes()), gl.buffer(elements.tobytes()), spans)
 
     def texture(self, texture: Texture):
         """The texture on the device, with its filters and, where they ask for it, its mipmaps."""

@@ -1,0 +1,115 @@
+"""Where a light's shadow maps look from: one view, or the six faces of a cube."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lightmeter.scenes.emitters import emitter
+from lightmeter.scenes.model import AreaLight, DirectionalLight, Light, Scene, SpotLight
+
+WIDEST_SPOT = math.radians(75)
+"""Half angle beyond which one plane cannot hold a spot's cone with useful texels; a cube takes over."""
+
+CUBE_FACES = (  # the way each face looks, and its up
+    ((1, 0, 0), (0, 1, 0)),
+    ((-1, 0, 0), (0, 1, 0)),
+    ((0, 1, 0), (0, 0, 1)),
+    ((0, -1, 0), (0, 0, 1)),
+    ((0, 0, 1), (0, 1, 0)),
+    ((0, 0, -1), (0, 1, 0)),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class ShadowViews:
+    """The views of one light.
+
+    Attributes:
+        matrices: (1 or 6, 4, 4) float64, world to clip space.
+        position: (4,) the light: position and 1, or the direction towards it and 0.
+        texel: the world size of a texel: metres, or metres per metre of distance from the light (w = 1).
+        excluded: a shape that must not shadow itself, the emitter; or None.
+    """
+
+    matrices: np.ndarray
+    position: np.ndarray
+    texel: float
+    excluded: int | None = None
+
+    @property
+    def is_cube(self) -> bool:
+        """Whether there are six faces."""
+        return len(self.matrices) == 6
+
+
+def shadow_views(scene: Scene, light: Light, resolution: int) -> ShadowViews:
+    """The views that a light's shadow maps are drawn from."""
+    if isinstance(light, DirectionalLight):
+        return _parallel(scene, np.array(light.direction, dtype=np.float64), resolution)
+    if isinstance(light, SpotLight) and light.outer < WIDEST_SPOT:
+        return _cone(scene, light, resolution)
+    if isinstance(light, AreaLight):
+        return _cube(scene, emitter(scene, light).centre, resolution, light.shape)
+    return _cube(scene, np.array(light.position, dtype=np.float64), resolution, None)
+
+
+def _corners(scene: Scene) -> np.ndarray:
+    low, high = scene.bounds
+    return np.array([[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)])
+
+
+def _parallel(scene: Scene, direction: np.ndarray, resolution: int) -> ShadowViews:
+    view = _look(np.zeros(3), direction, _any_up(direction))
+    corners = _corners(scene) @ view[:3, :3].T
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    # A border of a texel keeps the outermost points inside; a flat scene still gets some depth.
+    margin = np.maximum(high - low, 1e-6 * max(np.ptp(corners), 1e-6)) * (1.5 / resolution) + 1e-6 * np.ptp(corners)
+    low, high = low - margin, high + margin
+    extent = high - low
+    matrix = np.diag([2 / extent[0], 2 / extent[1], -2 / extent[2], 1.0])
+    matrix[:3, 3] = -(high + low) / extent * np.array([1, 1, -1])
+    return ShadowViews((matrix @ view)[None], np.append(-direction, 0.0), float(max(extent[:2])) / resolution)
+
+
+def _cone(scene: Scene, light: SpotLight, resolution: int) -> ShadowViews:
+    position, direction = np.array(light.position), np.array(light.direction)
+    matrix = _perspective(2 * light.outer, *_range(scene, position)) @ _look(position, direction, _any_up(direction))
+    return ShadowViews(matrix[None], np.append(position, 1.0), 2 * math.tan(light.outer) / resolution)
+
+
+def _cube(scene: Scene, position: np.ndarray, resolution: int, excluded: int | None) -> ShadowViews:
+    projection = _perspective(math.pi / 2, *_range(scene, position))
+    faces = [projection @ _look(position, np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES]
+    return ShadowViews(np.stack(faces), np.append(position, 1.0), 2.0 / resolution, excluded)
+
+
+def _range(scene: Scene, position: np.ndarray) -> tuple[float, float]:
+    """Near and far distance that hold the scene; a depth map of 24 bits still resolves 1e-6 of the far one."""
+    low, high = scene.bounds
+    far = float(np.linalg.norm(_corners(scene) - position, axis=1).max()) * 1.01 + 1e-9
+    outside = float(np.linalg.norm(np.maximum(np.maximum(low - position, position - high), 0)))
+    return max(outside / 2, far * 1e-3), far
+
+
+def _perspective(angle: float, near: float, far: float) -> np.ndarray:
+    scale = 1 / math.tan(angle / 2)
+    matrix = np.diag([scale, scale, (far + near) / (near - far), 0.0])
+    matrix[2, 3], matrix[3, 2] = 2 * far * near / (near - far), -1
+    return matrix
+
+
+def _any_up(direction: np.ndarray) -> np.ndarray:
+    """The axis that the direction is most across."""
+    return np.eye(3)[np.argmin(np.abs(direction))]
+
+
+def _look(position: np.ndarray, direction: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """World to a view that looks along −Z."""
+    back = -direction / np.linalg.norm(direction)
+    right = np.cross(up, back)
+    right /= np.linalg.norm(right)
+    matrix = np.eye(4)
+    matrix[:3, :3] = right, np.cross(back, right), back
+    matrix[:3, 3] = -matrix[:3, :3] @ position
+    return matrix

@@ -1,0 +1,274 @@
+"""Executes a plan: the frame as it is shown, its time, and the terms one by one for the measurement."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lightmeter.scenes.points import SurfacePoints
+
+from .averager import Averager
+from .device import Device
+from .display import DISPLAY_TERMS, DisplayPass
+from .gbuffer import CHANNELS, GBuffer
+from .geometry import Geometry
+from .graph import Plan, Step
+from .projection import viewer
+from .shading import VISIBILITIES, ShadingPass
+from .stage import Stage
+from .timing import Clock, Time
+
+CENTRE = np.zeros((1, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What the real-time side made.
+
+    Attributes:
+        radiance: (H, W, 3) float32 scene-linear, row 0 at the top.
+        display: (H, W, 3) uint8 code values, or None where no effect encodes.
+    """
+
+    radiance: np.ndarray
+    display: np.ndarray | None
+
+
+@dataclass(frozen=True, eq=False)
+class Times:
+    """What the frame costs.
+
+    Attributes:
+        frame: the whole frame, undisturbed.
+        passes: (pass, effect, time); the G-buffer belongs to no effect ("").
+        method: how it was timed.
+    """
+
+    frame: Time
+    passes: tuple[tuple[str, str, Time], ...]
+    method: str
+
+    def of(self, effect: str) -> Time | None:
+        """An effect's passes together; spreads are added, which can only overstate them."""
+        found = [time for _, name, time in self.passes if name == effect]
+        if not found:
+            return None
+        return Time(sum(t.median for t in found), sum(t.mad for t in found), found[0].frames)
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """The terms at one set of surface points, each (H, W, 3) float32.
+
+    Attributes:
+        direct: light to unshadowed radiance, for lights that an effect handles.
+        visibility: light to visibility, likewise.
+        frame: term to buffer: environment, environment_visibility, indirect.
+    """
+
+    points: SurfacePoints
+    direct: dict[int, np.ndarray]
+    visibility: dict[int, np.ndarray]
+    frame: dict[str, np.ndarray]
+
+
+class Renderer:
+    """Renders one plan at one size. Everything is compiled and uploaded once, here."""
+
+    def __init__(self, device: Device, plan: Plan, size: tuple[int, int]) -> None:
+        self.device, self.plan, self.size = device, plan, size
+        self._geometry = Geometry(device, plan.scene)
+        self._radiance = device.target(size)
+        self._radiance_buffer = device.framebuffer([self._radiance])
+        gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._emission_target())
+        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size)
+        self._passes = self._make_passes(self._stage, separate=False)
+        self._visibility = {
+            term: device.target(size) for term in VISIBILITIES if any(term in step.writes for step in plan.steps)
+        }
+        self._buffers = {term: device.framebuffer([texture]) for term, texture in self._visibility.items()}
+        self._display = {
+            step.writes[0]: (DisplayPass(device, *plan.effects[step.effect], step.writes[0]), step.effect)
+            for step in plan.steps
+            if step.writes[0] in DISPLAY_TERMS
+        }
+        self._display_targets: dict[str, Any] = {}
+        for term in self._display:
+            texture = device.target(size, dtype="f1" if term == "encode" else "f4")
+            self._display_targets[term] = device.framebuffer([texture]), texture
+        coverage = plan.effect_of("coverage")
+        self.offsets = CENTRE
+        if coverage is not None:
+            effect, knobs = plan.effects[coverage]
+            self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
+        self._coverage = coverage or ""
+        self._sum = self._accumulator() if len(self.offsets) > 1 else None
+
+    def _emission_target(self):
+        """The radiance, where anything emits or surrounds the scene; emission costs nothing elsewhere."""
+        scene = self.plan.scene
+        return self._radiance if scene.area_lights or scene.environment else None
+
+    def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
+        names = {step.effect for step in self.plan.steps if step.writes[0] not in DISPLAY_TERMS}
+        return {name: ShadingPass(stage, *self.plan.effects[name], separate) for name in names}
+
+    def _accumulator(self):
+        texture = self.device.target(self.size)
+        return self.device.framebuffer([texture]), texture, Averager(self.device)
+
+    def _scene_actions(self, offset: tuple[float, float]) -> list[tuple[str, str, Callable[[], None]]]:
+        """(pass, effect, draw) of one sample of the frame, up to its radiance."""
+
+        def gbuffer() -> None:
+            if self._emission_target() is None:
+                self._radiance_buffer.clear()
+            self._stage.gbuffer.draw(offset)
+
+        actions = [("gbuffer", "", gbuffer)]
+        for step in self.plan.steps:
+            if step.writes[0] not in DISPLAY_TERMS:
+                actions += self._step_actions(step)
+        return actions
+
+    def _step_actions(self, step: Step) -> list[tuple[str, str, Callable[[], None]]]:
+        shading = self._passes[step.effect]
+        name = step.effect
+        if step.light is not None:
+            name += f" · {self.plan.scene.all_lights[step.light].name}"
+        actions = []
+        own = shading.own
+        light = step.light
+        if own is not None and light is not None:
+            actions.append((f"{name} · map", step.effect, lambda: own.draw(light)))
+        term = step.writes[0]
+        target = self._buffers.get(term, self._radiance_buffer)
+
+        def draw() -> None:
+            if term in self._buffers:
+                target.clear(1.0, 1.0, 1.0, 1.0)
+            shading.draw(step, target, self._visibility)
+
+        actions.append((name, step.effect, draw))
+        return actions
+
+    def _display_actions(self) -> list[tuple[str, str, Callable[[], None]]]:
+        actions = []
+        image = self._sum[1] if self._sum else self._radiance
+        scale = 2.0**self.plan.scene.camera.exposure
+        for term, (display, effect) in self._display.items():
+            framebuffer, texture = self._display_targets[term]
+            actions.append(
+                (effect, effect, lambda d=display, i=image, f=framebuffer, s=scale: d.draw(i, f, s)),
+            )
+            image, scale = texture, 1.0
+        return actions
+
+    def draw(self) -> None:
+        """Draw the frame once."""
+        if self._sum:
+            self._sum[0].clear()
+        for offset in self.offsets:
+            for _, _, action in self._scene_actions(tuple(offset)):
+                action()
+            if self._sum:
+                self._accumulate()
+        for _, _, action in self._display_actions():
+            action()
+
+    def _accumulate(self) -> None:
+        assert self._sum
+        framebuffer, _, averager = self._sum
+        averager.add(self._radiance, framebuffer, 1.0 / len(self.offsets))
+
+    def render(self) -> Frame:
+        """The frame as images."""
+        self.draw()
+        radiance = self.device.read(self._sum[1] if self._sum else self._radiance)[..., :3]
+        encoded = self._display_targets.get("encode")
+        return Frame(radiance, self.device.read(encoded[1])[..., :3] if encoded else None)
+
+    def measure(self, frames: int = 20, warm_up: int = 3) -> Times:
+        """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""
+        clock = Clock(self.device)
+        for _ in range(warm_up):
+            self.draw()
+        whole = [clock.measure(self.draw) for _ in range(frames)]
+        actions = self._scene_actions(tuple(self.offsets[0])) + self._display_actions()
+        single: list[list[float]] = [[] for _ in actions]
+        for _ in range(frames):
+            for times, (_, _, action) in zip(single, actions, strict=True):
+                times.append(clock.measure(action))
+        passes = [(name, effect, Time.of(t)) for (name, effect, _), t in zip(actions, single, strict=True)]
+        if self._sum:
+            # What the further samples cost is the whole less one sample's passes and the display's.
+            rest = max(0.0, Time.of(whole).median - sum(t.median for _, _, t in passes))
+            passes.append((f"{self._coverage} · further samples", self._coverage, Time(rest, 0.0, frames)))
+        return Times(Time.of(whole), tuple(passes), clock.method)
+
+    def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
+        """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
+        gbuffer, radiance, stage, passes = self._capture_stage
+        gbuffer.draw(offset)
+        points = self._points(gbuffer, radiance)
+        direct, visibility, frame = {}, {}, {}
+        for step in self.plan.steps if terms else ():
+            if step.writes[0] in DISPLAY_TERMS:
+                continue
+            values = self._separate(passes[step.effect], step)
+            if step.light is None:
+                frame |= values
+            else:
+                (direct if "direct" in step.writes else visibility)[step.light] = values[step.writes[0]]
+        return Capture(points, direct, visibility, frame)
+
+    @property
+    def _capture_stage(self):
+        if not hasattr(self, "_captured"):
+            channels = frozenset(CHANNELS)
+            radiance = self.device.target(self.size)
+            gbuffer = GBuffer(
+                self.device, self._geometry, self.plan.scene, self.size, channels, radiance, identity=True
+            )
+            stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size)
+            self._captured = gbuffer, radiance, stage, self._make_passes(stage, separate=True)
+        return self._captured
+
+    def _separate(self, shading: ShadingPass, step: Step) -> dict[str, np.ndarray]:
+        """What a step writes, each term by itself; a visibility is 1 and a radiance 0 where nothing is drawn."""
+        textures = [self.device.target(self.size) for _ in step.writes]
+        target = self.device.framebuffer(textures)
+        target.clear(*((1.0,) * 4 if step.writes[0] in VISIBILITIES else (0.0,) * 4))
+        if shading.own is not None and step.light is not None:
+            shading.own.draw(step.light)
+        shading.draw(step, target, {})
+        return {
+            term: self.device.read(texture)[..., :3].copy() for term, texture in zip(step.writes, textures, strict=True)
+        }
+
+    def _points(self, gbuffer: GBuffer, radiance) -> SurfacePoints:
+        read = {name: self.device.read(texture) for name, texture in gbuffer.textures.items()}
+        position = read["position"][..., :3].copy()
+        hit = read["position"][..., 3] > 0
+        identity = read["identity"].astype(np.int32)
+        constants = {name: np.full(hit.shape, value, np.float32) for name, value in gbuffer.constants.items()}
+        pair = read.get("specular_occlusion")
+        specular = constants.get("specular", None if pair is None else pair[..., 0])
+        occlusion = constants.get("occlusion", None if pair is None else pair[..., 1])
+        eye = viewer(self.plan.scene.camera)
+        view = (eye[:3] - eye[3] * position.astype(np.float64)).astype(np.float64)
+        view /= np.maximum(np.linalg.norm(view, axis=-1, keepdims=True), 1e-300)
+        return SurfacePoints(
+            position=position,
+            normal=read["normal_roughness"][..., :3].copy(),
+            view=np.broadcast_to(view, position.shape).astype(np.float32),
+            base_color=read["base_color_metallic"][..., :3].copy(),
+            metallic=read["base_color_metallic"][..., 3].copy(),
+            roughness=read["normal_roughness"][..., 3].copy(),
+            specular=np.ascontiguousarray(specular),
+            occlusion=np.ascontiguousarray(occlusion),
+            emission=read["radiance"][..., :3].copy(),
+            shape=np.where(hit, identity[..., 0], -1).astype(np.int32),
+            triangle=np.where(hit, identity[..., 1] + 4096 * identity[..., 2], -1).astype(np.int32),
+        )

@@ -1,0 +1,93 @@
+"""The full-screen pass of an effect: its GLSL gives a function per term, this wraps it into a program."""
+
+from importlib import import_module
+from typing import Any
+
+from .device import set_uniforms
+from .effect import Effect, Knobs
+from .graph import FACTORS, Step
+from .projection import viewer
+from .shaders import Source, source
+from .stage import Stage
+
+VISIBILITIES = tuple(FACTORS.values())
+
+
+class ShadingPass:
+    """Draws one effect, for any of its steps.
+
+    Args:
+        separate: write every term to its own attachment, without its visibility, instead of adding the composition
+            to the frame's radiance.
+    """
+
+    def __init__(self, stage: Stage, effect: Effect, knobs: Knobs, separate: bool = False) -> None:
+        self._stage, self._effect, self._knobs, self._separate = stage, effect, knobs, separate
+        self._programs: dict[tuple, Any] = {}
+        self.own: Any = None
+        if (effect.folder / "passes.py").is_file():
+            module = import_module(f"{__package__}.effects.{effect.name}.passes")
+            self.own = module.Passes(stage, knobs, effect.folder)
+
+    def draw(self, step: Step, target: Any, buffers: dict[str, Any]) -> None:
+        """Draw into the framebuffer `target`.
+
+        Args:
+            buffers: the visibilities that the step reads, by term.
+        """
+        device, scene = self._stage.device, self._stage.scene
+        program, vertices = self._program(step)
+        target.use()
+        if step.writes[0] in VISIBILITIES or self._separate:
+            device.gl.enable_only(device.gl.NOTHING)
+        else:
+            device.gl.enable_only(device.gl.BLEND)
+            device.gl.blend_func = device.gl.ONE, device.gl.ONE
+        light = None if step.light is None else scene.all_lights[step.light]
+        uniforms = dict(self._knobs) | self._effect.uniforms(scene, self._knobs, light)
+        uniforms["viewer"] = viewer(scene.camera)
+        textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
+        textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
+        if self.own is not None and step.light is not None:
+            own_uniforms, own_textures = self.own.bindings(step.light)
+            uniforms |= own_uniforms
+            textures |= own_textures
+        set_uniforms(program, {k: v for k, v in uniforms.items() if not isinstance(v, str)})
+        bind(program, textures)
+        device.draw(vertices, 3)
+
+    def _program(self, step: Step):
+        own = self.own.defines(step.light) if self.own is not None and step.light is not None else {}
+        reads = () if self._separate else step.reads
+        key = (step.writes, reads, tuple(own.items()))
+        if key not in self._programs:
+            defines = self._stage.gbuffer.defines() | {f"READS_{term.upper()}": True for term in reads} | own
+            fragment = source("shade.frag", defines).text
+            body = source(f"{self._effect.name}.glsl", folder=self._effect.folder).text.removeprefix("#version 410\n")
+            outputs, writes = self._outputs(step.writes, reads)
+            fragment = fragment.replace("EFFECT", body).replace("OUTPUTS", outputs).replace("    WRITES", writes)
+            program = self._stage.device.program(Source(fragment))
+            self._programs[key] = program, self._stage.device.fullscreen(program)
+        return self._programs[key]
+
+    def _outputs(self, terms: tuple[str, ...], reads: tuple[str, ...]) -> tuple[str, str]:
+        """Declarations of the outputs, and the lines that fill them."""
+        if self._separate or terms[0] in VISIBILITIES:
+            declarations = [f"layout(location = {i}) out vec4 out_{term};" for i, term in enumerate(terms)]
+            lines = [f"    out_{term} = vec4({term}(surface), 0.0);" for term in terms]
+            return "\n".join(declarations), "\n".join(lines)
+        lines = ["    vec3 sum = vec3(0.0);"]
+        for term in terms:
+            factor = FACTORS.get(term)
+            scale = f" * texelFetch({factor}_buffer, pixel, 0).rgb" if factor in reads else ""
+            lines.append(f"    sum += {term}(surface){scale};")
+        lines.append("    out_radiance = vec4(sum, 0.0);")
+        return "out vec4 out_radiance;", "\n".join(lines)
+
+
+def bind(program, textures: dict[str, Any]) -> None:
+    """Bind those textures that the program samples."""
+    used = [(name, texture) for name, texture in textures.items() if name in program]
+    for unit, (name, texture) in enumerate(used):
+        texture.use(unit)
+        program[name].value = unit
