@@ -15,7 +15,7 @@ def scene() -> Scene:
     position = (1.0, -2.0, 6.0)
     return Scene(
         name="metal-rough-grid",
-        shapes=tuple(sphere_grid()),
+        shapes=tuple(sphere_grid(radius=0.42)),
         camera=Camera("long lens", look_at((0, 0, 30), (0, 0, 0)), yfov=float(np.radians(12.0)), near=25.0, far=35.0),
         lights=(
             PointLight("point", (-4.0, 3.0, 5.0), (28.0, 24.0, 18.0)),
