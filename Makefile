@@ -1,0 +1,37 @@
+# Every target sets up what it needs first (.ci/setup), which takes no time once that is there.
+PYTHON_IN := .venv/bin/python
+SCENE ?= cornell-box
+OUT ?= lightmeter-out/$(SCENE)
+ARGS ?=
+
+.PHONY: help setup compare test lint format bench doctor
+
+help: ## what can be made
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile
+
+setup: ## the virtual environment and the system's libraries
+	@bash .ci/setup
+
+compare: setup ## a real-time frame against the truth (SCENE=…, OUT=…, ARGS=…)
+	@$(PYTHON_IN) -m lightmeter compare $(SCENE) -o $(OUT) $(ARGS)
+	@echo "$(abspath $(OUT))/report.html"
+
+test: ## the tests (ARGS=… goes to pytest)
+	@bash .ci/setup test
+	@$(PYTHON_IN) -m pytest $(ARGS)
+
+lint: ## ruff, import-linter, pyright
+	@bash .ci/setup lint
+	@bash .ci/lint
+
+format: ## let ruff lay the code out
+	@bash .ci/setup lint
+	@$(PYTHON_IN) -m ruff check --fix
+	@$(PYTHON_IN) -m ruff format
+
+bench: ## speed, beside VTK and flip-evaluator
+	@bash .ci/setup bench test
+	@$(PYTHON_IN) benchmarks/run.py $(ARGS)
+
+doctor: setup ## what this machine has and lacks
+	@$(PYTHON_IN) -m lightmeter doctor
