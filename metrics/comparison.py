@@ -36,7 +36,7 @@ class Comparison:
         self.tested_batches = _batches(tested, "tested image")
         self.height, self.width = self.reference[0].shape[:2]
         self.mask = mask
-        self._reference_checked: np.ndarray | None | str = "not yet"
+        self._reference_checked: np.ndarray | str | None = "not yet"
         if self.tested_batches[0].shape != self.reference[0].shape:
             height, width = self.tested_batches[0].shape[:2]
             raise InputError(

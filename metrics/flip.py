@@ -9,8 +9,9 @@ products with small banded matrices, tile by tile: a matrix product over a tile 
 does four times the arithmetic of a direct convolution, but BLAS does it at ten times the speed. Everything is
 float32, channel first, in strips of rows that stay in the cache, on a thread per core.
 
-A pixel that is not finite makes the map NaN wherever its filters reach (HDR: everywhere, as the exposures are
-then unknown), and so the mean NaN: it is never averaged away. Values outside [0, 1] (LDR) or below 0 (HDR) are clamped: no display shows them.
+A pixel that is not finite makes the map NaN wherever its filters reach (HDR: everywhere, as the exposures are then
+unknown), and so the mean NaN: it is never averaged away. Values outside [0, 1] (LDR) or below 0 (HDR) are clamped:
+no display shows them.
 """
 
 from __future__ import annotations
@@ -296,7 +297,8 @@ def _exposed(stops: float) -> Callable[[np.ndarray], np.ndarray]:
     limit = np.float32(1e9)
 
     def tone(radiance: np.ndarray) -> np.ndarray:
-        x = np.clip(radiance * scale, 0, limit)
+        with np.errstate(over="ignore"):
+            x = np.clip(radiance * scale, 0, limit)
         return np.minimum(x * (c0 * x + c1) / (x * (c3 * x + c4) + c5), np.float32(1))
 
     return tone

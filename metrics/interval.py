@@ -53,14 +53,20 @@ def squared_norm_interval(value: float, leave_one_out: np.ndarray, gram: np.ndar
 
         V(θ) = 4 θ λ / K + 2 tr Σ² / (K (K − 1)),     λ = µᵀΣµ / |µ|².
 
-    Far from zero the first part rules, and the jackknife estimates it well. At µ = 0 the U-statistic is
-    degenerate: where few directions carry the noise, the jackknife's own estimate vanishes just when the value
-    is lowest, and value ± t·s misses (for one pixel 13 to 20 % of the time, in simulation). So the interval is
-    the hull of the jackknife's and of all θ that their own variance does not reject, |value − θ| ≤ t √V(θ) (a
-    score interval, as Wilson's of 1927 for a proportion). There tr Σ² is estimated without bias from products
-    over disjoint batches (Himeno and Yamada 2014), and λ by what the jackknife implies, at most the largest
-    eigenvalue of the sample covariance. Where the errors of single pixels have heavy tails and few pixels count, no
-    interval from K values holds its level; such references are for the caller to detect.
+    Far from zero the first part rules, and the jackknife estimates it well. At µ = 0 the U-statistic is degenerate:
+    where few directions carry the noise, the jackknife's own estimate vanishes just when the value is lowest, and
+    value ± t·s misses (for one pixel 13 to 20 % of the time, in simulation). So the interval is the hull of the
+    jackknife's and of
+
+        value + t² λ / K ± t √(4 max(0, value) λ / K + 2 tr Σ² / (K (K − 1))),
+
+    which for noise in one direction is the square of the exact interval |mean| ± t √(λ/K), and for noise in many
+    that of the degenerate U-statistic, which is then normal. tr Σ² is estimated without bias from products over
+    disjoint batches (Himeno and Yamada 2014). λ is what the jackknife implies, at most the largest eigenvalue, which
+    is estimated free of the other directions' noise (Yata and Aoshima 2012) and is itself at most √tr Σ².
+
+    Where few pixels count and their noise has heavy tails, no interval from K values holds its level; such
+    references are for the caller to detect.
 
     Args:
         value: the U-statistic, perhaps negative.
@@ -83,8 +89,10 @@ def squared_norm_interval(value: float, leave_one_out: np.ndarray, gram: np.ndar
     squared = (k - 1) / (k * (k - 2) * (k - 3)) * ((k - 1) * (k - 2) * trace_of_square + trace**2 - k * fourth)
     degenerate = 2 * max(squared, 0.0) / (k * (k - 1))
 
-    largest = max(float(np.linalg.eigvalsh(centred)[-1]) / (k - 1), 0.0)
+    first = float(np.linalg.eigvalsh(centred)[-1]) / (k - 1)
+    largest = first - (trace - first) / (k - 2)
+    largest = min(max(largest, 0.0), math.sqrt(max(squared, 0.0)))
     implied = min(largest, k * jackknife / (4 * value)) if value > 0 else largest
-    centre = value + 2 * t**2 * implied / k
-    spread = math.sqrt(max(centre**2 - value**2 + t**2 * degenerate, 0.0))
+    centre = value + t**2 * implied / k
+    spread = t * math.sqrt(4 * max(value, 0.0) * implied / k + degenerate)
     return min(value - half, centre - spread), max(value + half, centre + spread, 0.0)
