@@ -11,6 +11,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.model import Camera, DirectionalLight, Environment, Shape, Vector
 
 YFOV = np.radians(35.0)
@@ -54,6 +55,22 @@ def look_at(position: Vector, target: Vector, up: Vector = (0.0, 1.0, 0.0)) -> n
     out = np.eye(4)
     out[:3, :3] = np.stack([right, np.cross(backward, right), backward], axis=1)
     out[:3, 3] = position
+    return out
+
+
+def rigid(matrix: np.ndarray, where: str) -> np.ndarray:
+    """The rotation and translation in `matrix` (4, 4): its line of sight is kept, then its up.
+
+    Raises:
+        SceneError: no line of sight is left.
+    """
+    matrix = np.asarray(matrix, dtype=np.float64)
+    eye, backward, up = matrix[:3, 3], matrix[:3, 2], matrix[:3, 1]
+    length = np.linalg.norm(backward)
+    if not np.isfinite(matrix).all() or not 1e-12 < length < 1e12 or not np.linalg.norm(up) > 1e-12:
+        raise SceneError("this matrix leaves a camera no direction", where=where, remedy="use a rotation")
+    out = look_at((0.0, 0.0, 0.0), tuple(-backward / length), tuple(up / np.linalg.norm(up)))
+    out[:3, 3] = eye
     return out
 
 

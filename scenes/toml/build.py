@@ -87,7 +87,7 @@ class Builder:
             self.notes.append(framing.CAMERA_NOTE)
             return framing.framed_camera(made)
         if entry.matrix is not None:
-            matrix = rigid(np.array(entry.matrix), f"{self.where}: camera.matrix")
+            matrix = framing.rigid(np.array(entry.matrix), f"{self.where}: camera.matrix")
         else:
             assert entry.position is not None and entry.target is not None
             matrix = framing.look_at(entry.position, entry.target, entry.up)
@@ -195,7 +195,7 @@ class Builder:
         if framing.LIGHTS_NOTE not in scene.notes and entry.lights:
             self.brought_lights += [_moved(light, matrix) for light in scene.lights]
         if framing.CAMERA_NOTE not in scene.notes and self.brought_camera is None:
-            moved = rigid(matrix @ scene.camera.matrix, where)
+            moved = framing.rigid(matrix @ scene.camera.matrix, where)
             self.brought_camera = replace(scene.camera, matrix=moved)
         return [replace(s, name=f"{name}/{s.name}", matrix=matrix @ s.matrix) for s in scene.shapes]
 
@@ -210,22 +210,6 @@ _SHAPES: dict[type, Callable[..., Mesh]] = {
     entries.ConeEntry: lambda e: shapes.cone(e.radius, e.height, e.segments, e.rings, e.cap),
     entries.DiskEntry: lambda e: shapes.disk(e.radius, e.segments),
 }
-
-
-def rigid(matrix: np.ndarray, where: str) -> np.ndarray:
-    """The rotation and translation in `matrix` (4, 4): its line of sight is kept, then its up.
-
-    Raises:
-        SceneError: no line of sight is left.
-    """
-    matrix = np.asarray(matrix, dtype=np.float64)
-    eye, backward, up = matrix[:3, 3], matrix[:3, 2], matrix[:3, 1]
-    length = np.linalg.norm(backward)
-    if not np.isfinite(matrix).all() or not 1e-12 < length < 1e12 or not np.linalg.norm(up) > 1e-12:
-        raise SceneError("this matrix leaves a camera no direction", where=where, remedy="use a rotation")
-    out = framing.look_at((0.0, 0.0, 0.0), tuple(-backward / length), tuple(up / np.linalg.norm(up)))
-    out[:3, 3] = eye
-    return out
 
 
 def _times(radiant: Vector, color: Vector) -> Vector:

@@ -4,6 +4,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
+
 from lightmeter.scenes import shapes
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.model import Mesh

@@ -1,0 +1,30 @@
+"""Makes a mesh and a material fit each other: what a material looks up, its mesh must have."""
+
+from dataclasses import replace
+
+from lightmeter.scenes.model import Material, Mesh
+from lightmeter.scenes.tangents import unwelded, with_tangents
+
+
+def dressed(mesh: Mesh, material: Material) -> tuple[Mesh, Material, tuple[str, ...]]:
+    """The mesh with tangents where the material has a normal texture; the material without unusable textures.
+
+    A flat mesh under a normal texture gets vertices of its own for each triangle. A texture that names a set
+    of texture coordinates that the mesh lacks is taken away.
+
+    Returns:
+        mesh, material (the same objects where nothing changes), and notes.
+    """
+    sets = len(mesh.texcoords)
+    missing = [slot for slot, texture in material.textures.items() if texture.texcoord >= sets]
+    notes = tuple(
+        f"the {slot} texture of material {material.name!r} is left out: "
+        f"the mesh lacks texture coordinates {material.textures[slot].texcoord}"
+        for slot in missing
+    )
+    if missing:
+        material = replace(material, **{f"{slot}_texture": None for slot in missing})
+    if material.normal_texture is not None and (mesh.tangents is None or mesh.normals is None):
+        smooth = unwelded(mesh) if mesh.normals is None else mesh
+        mesh = with_tangents(smooth, material.normal_texture.texcoord)
+    return mesh, material, notes

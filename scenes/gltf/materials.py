@@ -1,0 +1,92 @@
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+
+from lightmeter.scenes.gltf import document
+from lightmeter.scenes.gltf.source import Source
+from lightmeter.scenes.gltf.textures import Textures
+from lightmeter.scenes.model import Material, Mesh
+
+DEFAULT = Material(name="glTF default", metallic=1.0, roughness=1.0)
+"""What a primitive without a material has (section 3.9.6)."""
+
+
+class Materials:
+    """The materials of one file; each is read once, when a primitive first uses it."""
+
+    def __init__(self, source: Source):
+        self._source = source
+        self._textures = Textures(source)
+        self._read: dict[int, Material] = {}
+
+    def blended(self, index: int | None, mesh: Mesh) -> bool:
+        """Whether a mesh of this material is really see-through: blended, and not of opacity 1 throughout.
+
+        Raises:
+            SceneError: the material or its base colour's image is wrong.
+        """
+        if index is None:
+            return False
+        part = self._part(index)
+        if part.alpha_mode != "BLEND":
+            return False
+        material = self.material(index)
+        texture = material.base_color_texture
+        texture_opaque = texture is None or texture.image.texels.shape[2] < 4 or (
+            texture.image.texels[:, :, 3].min(initial=255) == 255
+        )  # fmt: skip
+        colors_opaque = mesh.colors is None or mesh.colors[:, 3].min(initial=1) == 1
+        return not (material.alpha == 1 and texture_opaque and colors_opaque)
+
+    def material(self, index: int | None) -> Material:
+        """The material `index`, or glTF's default.
+
+        Raises:
+            SceneError: it, or one of its textures, is wrong.
+        """
+        if index is None:
+            return DEFAULT
+        if index not in self._read:
+            self._read[index] = self._material(self._part(index), index)
+        return self._read[index]
+
+    def _part(self, index: int) -> document.Material:
+        return self._source.get("materials", self._source.document.materials, index, "primitive.material")
+
+    def _material(self, part: document.Material, index: int) -> Material:
+        source, read = self._source, self._textures.texture
+        place = f"materials[{index}]"
+        pbr = part.metallic_roughness
+        base = f"{place}.pbrMetallicRoughness"
+        strength = source.extension(part, "KHR_materials_emissive_strength", document.EmissiveStrength, place)
+        factor = strength.strength if strength else 1.0
+        red, green, blue, alpha = pbr.base_color
+        normal, occlusion = part.normal_texture, part.occlusion_texture
+        return Material(
+            name=part.name or place,
+            base_color=(red, green, blue),
+            alpha=alpha,
+            metallic=pbr.metallic,
+            roughness=pbr.roughness,
+            specular=self._specular(part, place),
+            emissive=(part.emissive[0] * factor, part.emissive[1] * factor, part.emissive[2] * factor),
+            base_color_texture=read(pbr.base_color_texture, True, f"{base}.baseColorTexture"),
+            metallic_roughness_texture=read(pbr.metallic_roughness_texture, False, f"{base}.metallicRoughnessTexture"),
+            normal_texture=read(normal, False, f"{place}.normalTexture"),
+            normal_scale=normal.scale if normal else 1.0,
+            occlusion_texture=read(occlusion, False, f"{place}.occlusionTexture"),
+            occlusion_strength=occlusion.strength if occlusion else 1.0,
+            emissive_texture=read(part.emissive_texture, True, f"{place}.emissiveTexture"),
+            alpha_mode="mask" if part.alpha_mode == "MASK" else "opaque",
+            alpha_cutoff=part.alpha_cutoff,
+            double_sided=part.double_sided,
+        )
+
+    def _specular(self, part: document.Material, place: str) -> float:
+        specular = self._source.extension(part, "KHR_materials_specular", document.Specular, place)
+        if specular is None:
+            return 1.0
+        if specular.color != (1, 1, 1) or specular.texture or specular.color_texture:
+            self._source.note(
+                "KHR_materials_specular: only specularFactor is read; specularColorFactor and the textures are "
+                "left out of both pictures"
+            )
+        return specular.factor
