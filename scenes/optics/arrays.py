@@ -60,6 +60,11 @@ def sincos(x: Array) -> tuple[Array, Array]:
     return _drjit().sincos(x) if _is_drjit(x) else (np.sin(x), np.cos(x))
 
 
+def cos(x: Array) -> Array:
+    """cos x."""
+    return _drjit().cos(x) if _is_drjit(x) else np.cos(x)
+
+
 def dot(a: Array, b: Array) -> Array:
     """Scalar product over the components."""
     return _drjit().dot(a, b) if _is_drjit(a, b) else np.sum(np.multiply(a, b), axis=0)

@@ -1,20 +1,18 @@
 """What punctual lights send to a point (KHR_lights_punctual, read as radiometric)."""
 
-import math
-
 from . import arrays as xp
 from .arrays import Array
 
 
-def spot_attenuation(cos_angle: Array, inner: float, outer: float) -> Array:
+def spot_attenuation(cos_angle: Array, inner: Array, outer: Array) -> Array:
     """The cone's falloff, 0…1: the square of a linear ramp in the cosine (KHR_lights_punctual, reference code).
 
     Args:
         cos_angle: cosine of the angle between the spot's direction and the direction to the point.
         inner, outer: half angles in radians.
     """
-    cos_inner, cos_outer = math.cos(inner), math.cos(outer)
-    ramp = xp.clip((cos_angle - cos_outer) * (1 / max(1e-3, cos_inner - cos_outer)), 0.0, 1.0)
+    cos_inner, cos_outer = xp.cos(inner), xp.cos(outer)
+    ramp = xp.clip((cos_angle - cos_outer) * (1 / xp.maximum(cos_inner - cos_outer, 1e-3)), 0.0, 1.0)
     return ramp * ramp
 
 

@@ -1,0 +1,73 @@
+"""`material`: unfiltered, unpacked parameters at the points.
+
+Level-0 bilinear texture values in linear space, vertex colours, the interpolated normal with the normal map, and the
+emission, all in float32 at the G-buffer's position on its triangle.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from lightmeter.groundtruth.surface import SurfacePoint
+from lightmeter.groundtruth.variant import dr, mi
+from lightmeter.groundtruth.world import World
+from lightmeter.scenes.points import SurfacePoints
+
+TERM = "material"
+
+
+def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0, batch: int = 0) -> SurfacePoints:
+    """The points with exact parameters; position, view, shape and triangle are kept. `spp` and `seed` play no part."""
+    lead = points.shape.shape
+    flat = points.at(np.ones(lead, bool))
+    where = np.flatnonzero(flat.shape >= 0)
+    scalar = {
+        name: np.zeros(flat.shape.shape, np.float32) for name in ("metallic", "roughness", "specular", "occlusion")
+    }
+    vector = {name: np.zeros((*flat.shape.shape, 3), np.float32) for name in ("normal", "base_color", "emission")}
+    if world.scene.environment is not None:
+        vector["emission"][:] = world.scene.environment.radiance
+    if len(where):
+        for name, value in _read(world, flat, where).items():
+            (scalar if name in scalar else vector)[name][where] = value
+    shaped = {name: v.reshape(lead) for name, v in scalar.items()}
+    shaped |= {name: v.reshape(*lead, 3) for name, v in vector.items()}
+    return replace(points, **shaped)
+
+
+def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.ndarray]:
+    shape, triangle = (mi.UInt32(a[where].astype(np.uint32)) for a in (flat.shape, flat.triangle))
+    position, view = (mi.Vector3f(np.ascontiguousarray(a[where].T)) for a in (flat.position, flat.view))
+    corners = SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
+    b1, b2 = _barycentric(corners, position)
+    point = SurfacePoint(world.tables, shape, triangle, b1, b2, world.slots, True)
+    behind = dr.dot(corners.face_cross, view) < 0
+    normal = dr.select(behind & point.double_sided, -point.normal, point.normal)
+    emission = dr.select(behind & ~point.double_sided, 0, point.emission)
+    material, occlusion = point.material, point.occlusion
+    found = {
+        "normal": normal,
+        "base_color": material.base_color,
+        "emission": emission,
+        "metallic": material.metallic,
+        "roughness": material.roughness,
+        "specular": material.specular,
+        "occlusion": occlusion,
+    }
+    dr.eval(list(found.values()))
+    return {name: np.broadcast_to(value.numpy().T, _extent(name, len(where))) for name, value in found.items()}
+
+
+def _extent(name: str, count: int) -> tuple[int, ...]:
+    return (count, 3) if name in ("normal", "base_color", "emission") else (count,)
+
+
+def _barycentric(corners: SurfacePoint, position):
+    """b1, b2 of positions on their triangles, in double precision: slivers lose what single has."""
+    a, b, c = (mi.Vector3d(corners.corner(k)) for k in range(3))
+    e1, e2, offset = b - a, c - a, mi.Vector3d(position) - a
+    d11, d12, d22 = dr.dot(e1, e1), dr.dot(e1, e2), dr.dot(e2, e2)
+    d1, d2 = dr.dot(offset, e1), dr.dot(offset, e2)
+    determinant = d11 * d22 - d12 * d12
+    inverse = dr.select(determinant > 0, 1 / dr.maximum(determinant, 1e-300), 0)
+    return mi.Float((d22 * d1 - d12 * d2) * inverse), mi.Float((d11 * d2 - d12 * d1) * inverse)
