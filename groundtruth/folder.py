@@ -1,0 +1,142 @@
+"""A reference as a portable folder: EXR batches and a manifest, for CI to cache or commit."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from lightmeter.groundtruth import batch_file, content
+from lightmeter.groundtruth.batch_file import DamagedFileError
+from lightmeter.groundtruth.batches import REFERENCE, Reference, batch_name, collect
+from lightmeter.groundtruth.store import Series
+from lightmeter.scenes.model import Scene
+
+MANIFEST = "manifest.json"
+SCHEMA = 1
+
+
+class ReferenceFolderError(ValueError):
+    """A folder is no reference, is damaged, or belongs to another scene. The message says what, where and the remedy."""
+
+
+def save(folder: Path, scene: Scene, reference: Reference) -> int:
+    """Writes a reference to a folder; returns the bytes written. The manifest comes last."""
+    height, width = reference.batches.shape[1:3]
+    of = Series.of(REFERENCE, scene, (width, height), reference.spp, reference.seed)
+    count, total = len(reference.batches), 0
+    digests = {}
+    for batch, image in enumerate(reference.batches):
+        name = f"{batch_name(batch)}.exr"
+        metadata = of.metadata | {"key": reference.key, "name": batch_name(batch)}
+        total += batch_file.write(folder / name, {"": image}, metadata)
+        digests[name] = batch_file.pixel_digest({"": image})
+    manifest = {
+        "schema": SCHEMA,
+        "scene": scene.name,
+        "scene_key": reference.scene_key,
+        "key": reference.key,
+        "size": [width, height],
+        "spp": reference.spp,
+        "batches": count,
+        "seed": reference.seed,
+        "seconds": round(reference.seconds, 3),
+        "versions": content.versions(),
+        "definition": content.definition_key()[:16],
+        "files": digests,
+    }
+    text = json.dumps(manifest, indent=2) + "\n"
+    unfinished = folder / f"{batch_file.TEMPORARY}{MANIFEST}"
+    unfinished.write_text(text, encoding="utf-8")
+    unfinished.replace(folder / MANIFEST)
+    return total + len(text)
+
+
+def load(
+    folder: Path,
+    scene: Scene,
+    size: tuple[int, int] | None = None,
+    say: Callable[[str], None] = lambda message: None,
+) -> Reference:
+    """The reference in a folder, once it is sure that it belongs to the scene.
+
+    Args:
+        size: (width, height) that it must have; None takes what it has.
+        say: told where it was made by other versions, which does not stop it.
+
+    Raises:
+        ReferenceFolderError: with what is wrong and how to mend it.
+    """
+    manifest = _manifest(folder)
+    again = f"make it again with `lightmeter reference {scene.name} -o {folder}`"
+    if manifest["scene_key"] != content.scene_key(scene):
+        raise ReferenceFolderError(
+            f"{folder / MANIFEST}: the reference is of another scene, or of an earlier state of it "
+            f"(its scene is {manifest['scene']!r}, the one asked for {scene.name!r}); {again}"
+        )
+    width, height = manifest["size"]
+    if size is not None and (width, height) != tuple(size):
+        raise ReferenceFolderError(
+            f"{folder / MANIFEST}: expected {size[0]} × {size[1]} pixels, got {width} × {height}; "
+            f"pass `--size {width}x{height}`, or {again} --size {size[0]}x{size[1]}"
+        )
+    for what, mine in (("versions", content.versions()), ("definition", content.definition_key()[:16])):
+        if manifest[what] != mine:
+            say(f"{folder}: the reference was made with other {what} ({manifest[what]}; here: {mine})")
+    images = []
+    for name, wanted in manifest["files"].items():
+        try:
+            layers, metadata = batch_file.read(folder / name, (width, height))
+        except FileNotFoundError:
+            raise ReferenceFolderError(f"{folder / name} is missing; {again}") from None
+        except DamagedFileError as error:
+            raise ReferenceFolderError(f"{error}; {again}") from None
+        if metadata["sha256"] != wanted or "" not in layers:
+            raise ReferenceFolderError(f"{folder / name} is not the file that {MANIFEST} lists; {again}")
+        images.append(layers[""])
+    of = Series.of(REFERENCE, scene, (width, height), manifest["spp"], manifest["seed"])
+    found = collect(images, of, manifest["seconds"], len(images))
+    return Reference(**{**vars(found), "key": manifest["key"]})
+
+
+_EXPECTED = {
+    "scene": str,
+    "scene_key": str,
+    "key": str,
+    "size": list,
+    "spp": int,
+    "batches": int,
+    "seed": int,
+    "seconds": (int, float),
+    "versions": str,
+    "definition": str,
+    "files": dict,
+}
+
+
+def _manifest(folder: Path) -> dict:
+    path = folder / MANIFEST
+    hint = "a folder that `lightmeter reference SCENE -o DIR` wrote holds it"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ReferenceFolderError(f"{path} is missing; {hint}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ReferenceFolderError(f"{path} cannot be read ({error}); {hint}") from None
+    try:
+        manifest = json.loads(text)
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise ReferenceFolderError(f"{path} is not JSON ({error}); {hint}") from None
+    if not isinstance(manifest, dict) or manifest.get("schema") != SCHEMA:
+        found = manifest.get("schema") if isinstance(manifest, dict) else None
+        raise ReferenceFolderError(f"{path}: schema: expected {SCHEMA}, got {found!r}; {hint}")
+    for key, kind in _EXPECTED.items():
+        if not isinstance(manifest.get(key), kind) or isinstance(manifest.get(key), bool):
+            raise ReferenceFolderError(f"{path}: {key} is missing or of the wrong type; {hint}")
+    size, files = manifest["size"], manifest["files"]
+    if len(size) != 2 or not all(isinstance(n, int) and 1 <= n <= 16384 for n in size):
+        raise ReferenceFolderError(f"{path}: size: expected two numbers from 1 to 16384, got {size!r}"[:200])
+    if len(files) < 2 or len(files) != manifest["batches"]:
+        raise ReferenceFolderError(f"{path}: files: expected {manifest['batches']} batches, got {len(files)}")
+    for name in files:
+        if Path(name).name != name:
+            raise ReferenceFolderError(f"{path}: files: {name!r} is not a plain file name")
+    return manifest
