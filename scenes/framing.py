@@ -110,6 +110,14 @@ def clipping_distances(shapes: Iterable[Shape], matrix: np.ndarray) -> tuple[flo
     return near, far
 
 
+def gives_light(shapes: Iterable[Shape]) -> bool:
+    """Whether a shape lights the scene: one that emits evenly.
+
+    Emission through a texture is taken for a detail, such as a lamp or a screen on a model.
+    """
+    return any(s.material.emits and s.material.emissive_texture is None for s in shapes)
+
+
 def default_lights(camera: Camera) -> tuple[tuple[DirectionalLight, ...], Environment]:
     """The rig, turned with the camera: a key light, a fill light, and the environment."""
 

@@ -57,8 +57,9 @@ def read_image(data: bytes, name: str, where: str) -> Image:
     except SceneError:
         raise
     except Exception as error:  # PIL's decoders raise OSError, SyntaxError, struct.error, zlib.error, …
+        reason = type(error).__name__ if "<" in str(error) else f"{type(error).__name__}: {str(error)[:120]}"
         raise SceneError(
-            f"the image cannot be read ({type(error).__name__}: {str(error)[:120]})",
+            f"the image cannot be read ({reason})",
             where=where,
             expected="an undamaged PNG or JPEG file",
             actual=_format(data),

@@ -25,6 +25,24 @@ class Strict(BaseModel):
         return data
 
 
+_WORDS = {
+    "greater than or equal to": "at least",
+    "less than or equal to": "at most",
+    "greater than": "above",
+    "less than": "below",
+    "valid tuple": "list",
+    "valid list": "list",
+    "valid number": "number",
+    "valid string": "string",
+    "a valid boolean": "true or false",
+    "valid integer": "whole number",
+    "a valid dictionary or object to extract fields from": "a table",
+    "a valid dictionary or instance of": "a table for",
+    "a valid dictionary": "a table",
+}
+"""Pydantic's words, and a scene author's."""
+
+
 def dotted(path: tuple[int | str, ...]) -> str:
     """`("shapes", 2, "material")` as `shapes[2].material`."""
     text = ""
@@ -48,12 +66,14 @@ def explain(error: ValidationError, data: object, where: str) -> SceneError:
         what, actual = f"unknown key {shown(context['key'])}", ""
         remedy = nearest(context["key"], context["valid"])
     elif kind == "missing":
-        what, actual = "a required key is missing", ""
+        short = isinstance(first["loc"][-1], int)
+        what, actual = "the list is too short" if short else "a required key is missing", ""
     elif kind == "union_tag_not_found":
         what, actual = "the key 'type' is missing", ""
     elif kind in ("union_tag_invalid", "literal_error", "enum"):
         names = re.findall(r"'([^']*)'", str(context.get("expected_tags") or context.get("expected")))
         given = context.get("tag", first.get("input"))
+        path += ("type",) if kind == "union_tag_invalid" else ()
         what, expected, actual = "this value is not known", "one of " + ", ".join(names), shown(given)
         if isinstance(given, str) and "did you mean" in nearest(given, names):
             remedy = nearest(given, names)
@@ -64,6 +84,8 @@ def explain(error: ValidationError, data: object, where: str) -> SceneError:
         what, actual = str(context.get("error", what)), ""
     elif what.startswith("Input should be "):
         what, expected = "this value is not valid", what.removeprefix("Input should be ")
+        for theirs, ours in _WORDS.items():
+            expected = expected.replace(theirs, ours)
     more = len(complaints) - 1
     if more:
         remedy = f"{remedy}; " if remedy else ""

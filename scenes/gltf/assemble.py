@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter.scenes import framing
-from lightmeter.scenes.checks import checked
+from lightmeter.scenes.checks import Budget, check_shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.gltf.cameras import Placed, choose, read_camera
@@ -17,10 +17,6 @@ from lightmeter.scenes.gltf.lights import Punctuals
 from lightmeter.scenes.gltf.materials import Materials
 from lightmeter.scenes.gltf.source import Source
 from lightmeter.scenes.model import Material, Mesh, PunctualLight, Scene, Shape
-
-MOST_SHAPES = 20_000
-MOST_VERTICES = 30_000_000
-"""Of all shapes together, each counted as often as it is placed."""
 
 
 def load_gltf(path: Path, camera: str | int | None = None) -> Scene:
@@ -52,14 +48,13 @@ def load_gltf(path: Path, camera: str | int | None = None) -> Scene:
         raise SceneError("the file has no triangles to show", where=source.where, remedy="; ".join(source.notes[:3]))
     chosen = choose(source, cameras, camera)
     environment = None
-    scene = Scene(Path(path).stem, tuple(shapes), framing.framed_camera([]), tuple(lights))
-    checked(scene, source.where)
+    check_shapes(shapes, source.where)
     if chosen is None:
         source.note(framing.CAMERA_NOTE)
         view = framing.framed_camera(shapes)
     else:
         view = read_camera(source, chosen, shapes)
-    if not lights and not any(s.material.emits and s.material.emissive_texture is None for s in shapes):
+    if not lights and not framing.gives_light(shapes):
         source.note(framing.LIGHTS_NOTE)
         lights, environment = framing.default_lights(view)
     return Scene(
@@ -82,7 +77,7 @@ class _Assembly:
         self._dressed: dict[tuple[int, int], tuple[Mesh, Material] | None] = {}
         self._shapes: list[Shape] = []
         self._blended: list[str] = []
-        self._vertices = 0
+        self._budget = Budget(source.where)
 
     def walk(self) -> tuple[list[Shape], list[PunctualLight], list[Placed]]:
         lights: list[PunctualLight] = []
@@ -120,13 +115,7 @@ class _Assembly:
                 if self._is_blended(key) and name not in self._blended:
                     self._blended.append(name)
                 continue
-            self._vertices += len(found[0].positions)
-            if len(self._shapes) >= MOST_SHAPES or self._vertices > MOST_VERTICES:
-                raise SceneError(
-                    "the file is too large",
-                    where=source.where,
-                    expected=f"at most {MOST_SHAPES} shapes and {MOST_VERTICES} vertices, instances counted",
-                )
+            self._budget.spend(found[0])
             self._shapes.append(Shape(name, *found, world))
 
     def _is_blended(self, key: tuple[int, int]) -> bool:

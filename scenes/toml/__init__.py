@@ -8,7 +8,7 @@ from typing import Any
 
 from lightmeter.scenes.model import Scene
 
-LARGEST = 2**24
+LARGEST = 2**22
 """Bytes of a scene file."""
 
 
@@ -26,13 +26,12 @@ def load_toml(path: Path) -> Scene:
         SceneError: the file is missing, no TOML, has unknown keys or values out of range, or names a file that
             is missing, damaged or out of its folder.
     """
-    from lightmeter.scenes.checks import checked
     from lightmeter.scenes.files import read_bytes
     from lightmeter.scenes.toml.build import Builder
 
     path = Path(path)
     file = parse(read_bytes(path, LARGEST), str(path))
-    return checked(Builder(path.parent, str(path)).scene(file, path.stem), str(path))
+    return Builder(path.parent, str(path)).scene(file, path.stem)
 
 
 def parse(data: bytes, where: str):

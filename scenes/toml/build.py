@@ -1,12 +1,15 @@
 """From a checked scene file to a scene."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from lightmeter.scenes import framing, shapes
+from lightmeter.scenes.checks import Budget, check_shapes
+from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.errors import SceneError, nearest, shown
 from lightmeter.scenes.files import inside, read_bytes
 from lightmeter.scenes.images import read_image
@@ -49,7 +52,9 @@ class Builder:
     notes: list[str] = field(default_factory=list)
     brought_lights: list[PunctualLight] = field(default_factory=list)
     brought_camera: Camera | None = None
-    brought_environment: Environment | None = None
+
+    def __post_init__(self):
+        self.budget = Budget(self.where)
 
     def scene(self, file: entries.SceneFile, name: str) -> Scene:
         """The scene that `file` describes, called `name` unless it says otherwise.
@@ -61,12 +66,13 @@ class Builder:
         made: list[Shape] = []
         for index, entry in enumerate(file.shapes):
             made += self.shapes(entry, index, materials)
+        check_shapes(made, self.where)
         lights = [self.light(entry, index) for index, entry in enumerate(file.lights or [])]
         lights += self.brought_lights
         environment = Environment(file.environment.radiance) if file.environment else None
         camera = self.camera(file.camera, made)
         told = file.lights is not None or environment is not None
-        if not told and not lights and not any(shape.material.emits for shape in made):
+        if not told and not lights and not framing.gives_light(made):
             lights, environment = framing.default_lights(camera)
             self.notes.append(framing.LIGHTS_NOTE)
         return Scene(
@@ -139,17 +145,24 @@ class Builder:
     def shapes(self, entry: entries.ShapeEntry, index: int, materials: dict[str, Material]) -> list[Shape]:
         place = f"shapes[{index}]"
         where, matrix = f"{self.where}: {place}", placement(entry)
+        if not abs(np.linalg.det(matrix[:3, :3])) > 1e-30:
+            raise SceneError("this place leaves nothing of the shape", where=where, actual="a determinant of 0")
         name = entry.name or f"{entry.type} {index}"
         if isinstance(entry, entries.GltfEntry):
             return self.whole_gltf(entry, name, matrix, where)
         material = self.painted(entry, materials, where)
         if isinstance(entry, entries.MeshEntry):
-            return [Shape(n, mesh, material, matrix @ m) for n, mesh, m in self.meshes(entry, name, where)]
-        try:
+            read = self.meshes(entry, name, where)
+            return [self.shape(title, mesh, material, matrix @ local) for title, mesh, local in read]
+        with _from(where):
             mesh = _SHAPES[type(entry)](entry)
-        except SceneError as error:
-            raise error.within(where) from None
-        return [Shape(name, mesh, material, matrix)]
+        return [self.shape(name, mesh, material, matrix)]
+
+    def shape(self, name: str, mesh: Mesh, material: Material, matrix: np.ndarray) -> Shape:
+        mesh, material, notes = dressed(mesh, material)
+        self.notes += [f"{name}: {note}" for note in notes]
+        self.budget.spend(mesh)
+        return Shape(name, mesh, material, matrix)
 
     def painted(self, entry: entries.Painted, materials: dict[str, Material], where: str) -> Material:
         if entry.material is None:
@@ -179,15 +192,16 @@ class Builder:
             raise SceneError(
                 "this is no mesh file", where=where, expected=".obj, .ply, .gltf or .glb", actual=entry.file
             )
-        mesh, notes = read(path)
+        with _from(where):
+            mesh, notes = read(path)
         self.notes += [f"{name}: {note}" for note in notes]
         return [(name, mesh, np.eye(4))]
 
     def gltf(self, path: Path, where: str) -> Scene:
         from lightmeter.scenes.gltf import load_gltf
 
-        read_bytes(path, where=where)
-        return load_gltf(path)
+        with _from(where):
+            return load_gltf(path)
 
     def whole_gltf(self, entry: entries.GltfEntry, name: str, matrix: np.ndarray, where: str) -> list[Shape]:
         scene = self.gltf(inside(self.folder, entry.file, f"{where}.file"), f"{where}.file")
@@ -197,6 +211,8 @@ class Builder:
         if framing.CAMERA_NOTE not in scene.notes and self.brought_camera is None:
             moved = framing.rigid(matrix @ scene.camera.matrix, where)
             self.brought_camera = replace(scene.camera, matrix=moved)
+        for shape in scene.shapes:
+            self.budget.spend(shape.mesh)
         return [replace(s, name=f"{name}/{s.name}", matrix=matrix @ s.matrix) for s in scene.shapes]
 
 
@@ -210,6 +226,15 @@ _SHAPES: dict[type, Callable[..., Mesh]] = {
     entries.ConeEntry: lambda e: shapes.cone(e.radius, e.height, e.segments, e.rings, e.cap),
     entries.DiskEntry: lambda e: shapes.disk(e.radius, e.segments),
 }
+
+
+@contextmanager
+def _from(where: str) -> Iterator[None]:
+    """Puts the place that names a file before whatever is wrong in the file."""
+    try:
+        yield
+    except SceneError as error:
+        raise error.within(where) from None
 
 
 def _times(radiant: Vector, color: Vector) -> Vector:

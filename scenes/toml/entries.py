@@ -223,7 +223,9 @@ class Placed(Strict):
 class Painted(Placed):
     """A placed shape with a material of its own."""
 
-    material: Name | None = Field(None, description="A key of `materials`; a white rough one unless given.")
+    material: Name | None = Field(
+        None, description="A key of `materials`; unless given, the one called `default`, or a white rough one."
+    )
 
 
 class PlaneEntry(Painted):
