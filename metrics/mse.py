@@ -8,12 +8,14 @@ With one batch the plain mean is all there is; it comes without an interval and 
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from .comparison import Comparison
 from .interval import MIN_BATCHES, squared_norm_interval, u_statistic
 from .measurement import Measurement
+from .moments import Moments
 
 RADIANCE = "W/sr/m²"
 
@@ -42,7 +44,7 @@ def relmse(comparison: Comparison) -> Measurement:
     return _squared(comparison, "", lambda m, keep: _positive(_power(m.reference_gram, keep)))
 
 
-def _squared(comparison: Comparison, unit: str, scale) -> Measurement:
+def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.ndarray], float]) -> Measurement:
     """The MSE over scale(moments, batches that are kept), with the scale's own noise in the interval."""
     if comparison.unusable():
         return comparison.failure(unit)
@@ -74,16 +76,10 @@ def _squared(comparison: Comparison, unit: str, scale) -> Measurement:
 
 
 def _root(squared: Measurement, unit: str) -> Measurement:
-    def root(x: float | None) -> float | None:
-        return x if x is None or math.isnan(x) else math.sqrt(max(0.0, x))
-
-    return Measurement(
-        root(squared.value),
-        root(squared.low),
-        root(squared.high),
-        unit,
-        f"root of {squared.how}" if not math.isnan(squared.value) else squared.how,
-    )
+    if math.isnan(squared.value):
+        return squared
+    low, high = (None if x is None else math.sqrt(max(0.0, x)) for x in (squared.low, squared.high))
+    return Measurement(math.sqrt(max(0.0, squared.value)), low, high, unit, f"root of {squared.how}")
 
 
 def _mean(values: np.ndarray, keep: np.ndarray) -> float:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.stats import binom
+from scipy.stats import t as student_t
 
 from lightmeter.metrics import Comparison, InputError, measure
 from lightmeter.metrics.moments import Moments
@@ -257,3 +258,12 @@ def test_mae_of_a_noisy_reference():
 def test_peak_is_checked(peak):
     with pytest.raises(InputError, match="PSNR needs a peak"):
         measure("psnr", TRUTH, TRUTH, peak=peak)
+
+
+def test_interval_of_the_bias_is_students():
+    # The jackknife of a mean is the classical interval: mean ± t s/√K.
+    batches = noisy(TRUTH, 5, 0)
+    means = (TRUTH - batches).mean(axis=(1, 2, 3))
+    half = student_t.ppf(0.975, 4) * means.std(ddof=1) / math.sqrt(5)
+    found = measure("bias", TRUTH, batches)
+    assert (found.low, found.high) == pytest.approx((means.mean() - half, means.mean() + half), rel=1e-9)
