@@ -74,7 +74,7 @@ class SceneBSDF(mi.BSDF):
         return dr.select(carried, value, 0), dr.select(carried, density, 0)
 
     def _sample(self, si, point, material, frame, sample1, sample2, active):
-        normal, view, scatters = frame
+        normal, view, _ = frame
         light = optics.sample(material, normal, view, (sample1, sample2.x, sample2.y), mi.Vector3f)
         wo = si.to_local(light)
         value, density = self._eval_pdf(si, point, material, frame, wo, active)

@@ -6,6 +6,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -27,9 +28,14 @@ _WITHOUT_LIGHT = {
 """Fields that change no light in the truth: names, and what only the real-time side or the display reads."""
 
 
+_known_scenes: WeakKeyDictionary[Scene, str] = WeakKeyDictionary()
+
+
 def scene_key(scene: Scene) -> str:
     """64 hex digits that two scenes share when, and only when, the truth is the same (sha256 over their content)."""
-    return digest(scene)
+    if scene not in _known_scenes:
+        _known_scenes[scene] = digest(scene)
+    return _known_scenes[scene]
 
 
 def points_key(points: SurfacePoints) -> str:

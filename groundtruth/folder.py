@@ -15,7 +15,7 @@ SCHEMA = 1
 
 
 class ReferenceFolderError(ValueError):
-    """A folder is no reference, is damaged, or belongs to another scene. The message says what, where and the remedy."""
+    """A folder is no reference, is damaged, or belongs to another scene; the message says how to mend it."""
 
 
 def save(folder: Path, scene: Scene, reference: Reference) -> int:

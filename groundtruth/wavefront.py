@@ -43,7 +43,7 @@ class Pattern:
         root = 2.0
         for _ in range(64):
             root = (1 + root) ** (1 / (dimensions + 1))
-        self.steps = [int(round(2**32 * (root ** -(d + 1) % 1))) for d in range(dimensions)]
+        self.steps = [round(2**32 * (root ** -(d + 1) % 1)) for d in range(dimensions)]
         self.used = 0
 
     def next(self):
