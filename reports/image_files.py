@@ -4,6 +4,7 @@ The kind of file is told by its first bytes, never by its name. Sizes are checke
 """
 
 import os
+import struct
 from pathlib import Path
 from typing import Literal
 
@@ -164,9 +165,10 @@ def _read_png(path: Path, head: bytes, max_pixels: int) -> npt.NDArray[np.float3
         return (png16.read_png16(path, max_pixels) / np.float32(65535)).astype(np.float32)
     from PIL import Image
 
+    if len(head) >= 24:  # before Pillow, which has a limit and a warning of its own
+        check_size(path, *struct.unpack(">II", head[16:24]), max_pixels)
     try:
         with Image.open(path, formats=("PNG",)) as picture:
-            check_size(path, *picture.size, max_pixels)
             bits = picture.width * picture.height * (1 if picture.mode == "1" else 8)
             check_content(path, bits // 8, path.stat().st_size, 1100.0)
             if picture.mode.startswith("I"):

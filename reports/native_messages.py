@@ -1,7 +1,7 @@
-"""What a C++ library prints by itself, caught instead of shown."""
+"""What OpenEXR prints by itself, caught instead of shown."""
 
 import contextlib
-import ctypes
+import io
 import os
 import tempfile
 import threading
@@ -12,32 +12,23 @@ _LOCK = threading.Lock()
 
 @contextlib.contextmanager
 def native_messages() -> Iterator[Callable[[], str]]:
-    """Within the block the process's standard output and error go to a file; the function given reads it.
+    """Within the block what is printed is kept; the function given reads it.
 
-    OpenEXR prints its own lines about a damaged file, some of them on standard output, where they would
-    end up in the middle of a `--json` document. The descriptors belong to the whole process, so keep the
-    block short. A descriptor that is closed is left alone.
+    About a damaged file OpenEXR's C++ side writes to descriptor 2, and its Python side prints to `sys.stdout`,
+    where it would end up in the middle of a `--json` document. Both belong to the whole process, so keep the
+    block short. Without a standard error there is nothing to catch there.
     """
+    printed = io.StringIO()
     with _LOCK, tempfile.TemporaryFile() as caught, contextlib.ExitStack() as stack:
-        _flush()
-        for descriptor in (1, 2):
-            with contextlib.suppress(OSError):
-                kept = os.dup(descriptor)
-                stack.callback(os.close, kept)
-                os.dup2(caught.fileno(), descriptor)
-                stack.callback(os.dup2, kept, descriptor)
-        # C's buffers must empty into the file before the descriptors are put back.
-        stack.callback(_flush)
+        stack.enter_context(contextlib.redirect_stdout(printed))
+        with contextlib.suppress(OSError):
+            kept = os.dup(2)
+            stack.callback(os.close, kept)
+            os.dup2(caught.fileno(), 2)
+            stack.callback(os.dup2, kept, 2)
 
         def read() -> str:
-            _flush()
             caught.seek(0)
-            return caught.read(4096).decode("utf-8", "replace")
+            return printed.getvalue() + caught.read(4096).decode("utf-8", "replace")
 
         yield read
-
-
-def _flush() -> None:
-    """Empty C's output buffers (Python's own are separate); where there is no C library to ask, do nothing."""
-    with contextlib.suppress(OSError, AttributeError, TypeError):
-        ctypes.CDLL(None).fflush(None)

@@ -91,7 +91,13 @@ def _time(timing: Timing | None) -> dict[str, str] | None:
 def _tiles(results: Results) -> list[dict[str, Any]]:
     metrics = results.frame.metrics
     names = present(_HEADLINE, metrics) or in_order(metrics)
-    tiles = [_named(name) | _measured(metrics[name]) for name in names[:_HEADLINE_TILES]]
+    tiles = []
+    for name in names[:_HEADLINE_TILES]:
+        tile = _named(name) | _measured(metrics[name])
+        floor = metrics[name].floor
+        if not tile["interval"] and floor is not None:
+            tile["interval"] = f"noise floor {show_number(floor)}"
+        tiles.append(tile)
     time = _time(results.frame.time_ms)
     if time:
         tiles.append(
@@ -166,21 +172,22 @@ def _knob(value: Any) -> str:
 
 
 def _bar_ends(results: Results) -> dict[str, float]:
-    """Unit to the largest value that a bar in this unit must show: only equal units share a scale."""
+    """Unit to the largest value that a bar in this unit must show, for units that two rows or more share."""
+    found = [results.frame.metrics.get("rmse"), *(effect.metrics.get("rmse") for effect in results.effects)]
+    finite = [rmse for rmse in found if rmse is not None and math.isfinite(rmse.value)]
+    units = [rmse.unit for rmse in finite]
     ends: dict[str, float] = {}
-    for metrics in [results.frame.metrics, *(effect.metrics for effect in results.effects)]:
-        if "rmse" in metrics:
-            rmse = metrics["rmse"]
-            for value in (rmse.value, rmse.high):
-                if value is not None and math.isfinite(value):
-                    ends[rmse.unit] = max(ends.get(rmse.unit, 0.0), value)
+    for rmse in finite:
+        high = rmse.high if rmse.high is not None and math.isfinite(rmse.high) else rmse.value
+        if units.count(rmse.unit) > 1:
+            ends[rmse.unit] = max(ends.get(rmse.unit, 0.0), rmse.value, high)
     return ends
 
 
 def _bar(measurement: Measurement, ends: Mapping[str, float]) -> dict[str, float] | None:
-    """Bar and interval in percent of the column, None where the value is not finite."""
-    end = ends.get(measurement.unit, 0.0)
-    if not math.isfinite(measurement.value):
+    """Bar and interval in percent of the column; None where there is nothing to compare with."""
+    end = ends.get(measurement.unit)
+    if end is None or not math.isfinite(measurement.value):
         return None
     bar = {"value": _percent(measurement.value, end)}
     if measurement.low is not None and measurement.high is not None:

@@ -16,7 +16,7 @@ class ErrorMap:
 
     Attributes:
         name: a short name, unique within its pair ("rms", "flip", "signed").
-        title: as people read it ("FLIP", "RMS error over channels").
+        title: as people read it ("FLIP", "RMS error").
         values: float32 (H, W), in `unit`; a pixel that is not finite is a failure and shown as one.
         unit: the unit as it is printed ("W/sr/m²"), "" for a pure number.
         scale: how the range is chosen when none is asked for:
@@ -103,14 +103,14 @@ def rms_error(tested: npt.ArrayLike, truth: npt.ArrayLike, unit: str = "") -> Er
     """Root mean square over the three channels of tested − truth, both (H, W, 3)."""
     difference = np.asarray(tested, np.float64) - np.asarray(truth, np.float64)
     values = np.sqrt(np.mean(difference**2, axis=2)).astype(np.float32)
-    return ErrorMap("rms", "RMS error over channels", values, unit, "magnitude")
+    return ErrorMap("rms", "RMS error", values, unit, "magnitude")
 
 
 def signed_error(tested: npt.ArrayLike, truth: npt.ArrayLike, unit: str = "") -> ErrorMap:
     """Mean over the three channels of tested − truth, both (H, W, 3): too bright is positive."""
     difference = np.asarray(tested, np.float64) - np.asarray(truth, np.float64)
     values = np.mean(difference, axis=2).astype(np.float32)
-    return ErrorMap("signed", "Signed error, mean over channels", values, unit, "signed")
+    return ErrorMap("signed", "Signed error", values, unit, "signed")
 
 
 def flip_error(values: npt.ArrayLike) -> ErrorMap:

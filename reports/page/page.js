@@ -153,14 +153,13 @@ function refreshError(viewer) {
   if (document.activeElement !== field) field.value = String(Number(high.toPrecision(4)));
   byId('range-unit').textContent = error.unit;
   byId('range-reset').disabled = !viewer.ranges.has(error);
-  byId('bar-title').textContent = error.title;
-  byId('bar-unit').textContent = error.unit;
   const { rgb, nonfinite } = viewer.maps[error.map], brush = byId('bar-canvas').getContext('2d');
   const strip = brush.createImageData(256, 1);
   for (let i = 0; i < 256; i++) strip.data.set([rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], 255], 4 * i);
   brush.putImageData(strip, 0, 0);
   byId('bad-swatch').style.background = `rgb(${nonfinite.join(' ')})`;
-  byId('mask-swatch').hidden = byId('mask-word').hidden = pair.mask === null;
+  byId('bad-legend').hidden = error.bad === 0;
+  byId('mask-legend').hidden = pair.mask === null;
   byId('ticks').replaceChildren(...ticks(low, high).map((value) => {
     const tick = document.createElement('span');
     tick.textContent = trimmed(value);

@@ -1,0 +1,168 @@
+"""Made-up results and pictures that look like a comparison: a ball on a floor under a lamp and a sky."""
+
+import math
+
+import numpy as np
+
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.display_curve import DisplayCurve
+from lightmeter.reports.pictures import Pair, flip_error, rms_error, signed_error
+from lightmeter.reports.results import (
+    Closure,
+    Effect,
+    Frame,
+    LeftOut,
+    NonFinite,
+    PassTime,
+    Reference,
+    Results,
+    Timing,
+)
+
+RADIANCE = "W/sr/m²"
+
+
+def narkowicz_curve() -> DisplayCurve:
+    """A tone curve and gamma 2.2, sampled as a frame would give them."""
+    x = np.linspace(-12, 8, 321)
+    value = 2.0**x
+    toned = value * (2.51 * value + 0.03) / (value * (2.43 * value + 0.59) + 0.14)
+    return DisplayCurve(tuple(x), tuple(np.clip(toned, 0, 1) ** (1 / 2.2)), "Narkowicz, gamma 2.2")
+
+
+def ball(size: int, soft: float) -> dict[str, np.ndarray]:
+    """Buffers of the scene, each (size, size, 3): visibility's penumbra is `soft` wide."""
+    v, u = (np.mgrid[0:size, 0:size] + 0.5) / size
+    x, y = 2 * u - 1, 1 - 2 * v
+    inside = x**2 + y**2 < 0.36
+    normal_z = np.sqrt(np.clip(0.36 - x**2 - y**2, 0, None))
+    light = np.array([-0.5, 0.7, 0.55])
+    lambert = np.clip((x * light[0] + y * light[1] + normal_z * light[2]) / 0.6, 0, None)
+    floor = y < -0.15
+    base = np.where(
+        inside[..., None], [0.8, 0.32, 0.2], np.where(floor[..., None], [0.45, 0.5, 0.42], [0.2, 0.35, 0.6])
+    )
+    irradiance = np.where(inside, 3.2 * lambert, np.where(floor, 1.9 * np.exp(-(x**2) - (y + 0.6) ** 2), 0.0))
+    distance = np.hypot((x - 0.42) / 1.5, (y + 0.62) * 2.6) - 0.42
+    shadow = np.clip(0.5 + distance / max(soft, 1e-4), 0, 1) if soft else (distance > 0) * 1.0
+    visibility = np.where(floor & ~inside, shadow, 1.0)
+    contact = 1 - 0.75 * np.exp(-np.hypot(x, (y + 0.6) * 2.2) * 3.2)
+    sky = np.where(inside | floor, 0.35, 1.0)
+    return {
+        "direct": base * irradiance[..., None],
+        "visibility": np.repeat(visibility[..., None], 3, 2),
+        "environment": base * sky[..., None] * [0.8, 0.95, 1.2],
+        "occlusion": np.repeat(np.where(inside | floor, contact, 1.0)[..., None], 3, 2),
+        "surface": (inside | floor),
+    }
+
+
+def make_pairs(size: int = 96, broken: bool = False) -> list[Pair]:
+    """Four pairs; with `broken` the frame holds a few pixels that are not finite."""
+    random = np.random.default_rng(5)
+    rough, exact = ball(size, 0.0), ball(size, 0.22)
+
+    def noisy(image: np.ndarray, level: float) -> np.ndarray:
+        return (image * (1 + level * random.standard_normal(image.shape))).astype(np.float32)
+
+    truth = exact["direct"] * exact["visibility"] + exact["environment"] * exact["occlusion"]
+    frame = rough["direct"] * 1.03 * rough["visibility"] + rough["environment"] * 0.92
+    highlight = ((np.mgrid[0:size, 0:size] / size - [[[0.36]], [[0.4]]]) ** 2).sum(axis=0)[..., None]
+    truth = truth + 30 * np.exp(-highlight * 900)
+    frame = (frame + 24 * np.exp(-highlight * 700)).astype(np.float32)
+    if broken:
+        frame[size // 4, size // 3] = np.nan
+        frame[3 * size // 4, size // 2] = [np.inf, 1, 1]
+    truth = noisy(truth, 0.01)
+    flip = np.clip(np.abs(np.log2((frame + 0.05) / (truth + 0.05))).mean(axis=2) / 2, 0, 1)
+    pairs = [
+        Pair(
+            "frame",
+            "Whole frame",
+            (),
+            frame,
+            truth,
+            (rms_error(frame, truth, RADIANCE), flip_error(flip), signed_error(frame, truth, RADIANCE)),
+            unit=RADIANCE,
+            caption="The real-time frame beside the path-traced reference of the same camera.",
+        )
+    ]
+    buffers = [
+        ("cook_torrance", "direct", rough["direct"] * 1.03, exact["direct"], RADIANCE, None),
+        ("shadow_map", "visibility", rough["visibility"], exact["visibility"], "", exact["surface"]),
+        ("constant_ambient", "environment", rough["environment"] * 0.92, exact["environment"], RADIANCE, None),
+    ]
+    for name, term, tested, true, unit, mask in buffers:
+        tested, true = tested.astype(np.float32), noisy(true, 0.004)
+        errors = (rms_error(tested, true, unit), signed_error(tested, true, unit))
+        caption = f"The effect's own buffer beside the oracle of {term} at the same points."
+        pairs.append(Pair(name, name, (term,), tested, true, errors, unit=unit, caption=caption, mask=mask))
+    shown = narkowicz_curve().apply(truth).astype(np.float32)
+    other = np.clip(shown**1.02, 0, 1).astype(np.float32)
+    pairs.append(Pair("narkowicz", "narkowicz", ("tone",), other, shown, (rms_error(other, shown),), "display"))
+    return pairs
+
+
+def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-floor") -> Results:
+    """Results to go with `make_pairs`."""
+
+    def about(value: float, half: float, unit: str = "", how: str = "U-statistic over 8 batches, jackknife, Student t"):
+        return Measurement(value, value - half, value + half, unit, how)
+
+    def noisy(value: float, floor: float) -> Measurement:
+        return Measurement(value, None, None, "", "at the mean of 8 batches", floor, value * 0.98)
+
+    frame = {
+        "mse": about(0.00421, 0.00012, f"({RADIANCE})²"),
+        "rmse": about(0.06489, 0.0009, RADIANCE),
+        "nrmse": about(0.1421, 0.0021),
+        "bias": about(-0.0123, 0.0004, RADIANCE),
+        "psnr": Measurement(27.31, 27.1, 27.5, "dB", "of the unbiased MSE"),
+        "ssim": noisy(0.9312, 0.991),
+        "flip": noisy(0.0721, 0.0041),
+    }
+    if broken:
+        frame |= {name: Measurement(math.nan, how="failed: 2 non-finite pixels") for name in ("rmse", "nrmse", "flip")}
+    effects = (
+        Effect("cook_torrance", ("direct",), {}, {"rmse": about(0.0112, 0.0002, RADIANCE), "flip": noisy(0.012, 0.003),
+               "ssim": noisy(0.9921, 0.999)}, Timing(1.82, 0.04, 40)),
+        Effect("shadow_map", ("visibility",), {"resolution": 1024, "filter": "pcf3", "bias": 0.0015},
+               {"rmse": about(0.0523, 0.0031, RADIANCE), "flip": noisy(0.044, 0.003), "ssim": noisy(0.951, 0.999)},
+               Timing(3.41, 0.12, 40)),
+        Effect("constant_ambient", ("environment", "indirect"), {"scale": 1.0},
+               {"rmse": about(0.0312, 0.0006, RADIANCE), "flip": noisy(0.025, 0.003), "ssim": noisy(0.97, 0.999)}),
+        Effect("narkowicz", ("tone",), {"exposure": 1.0}, {"rmse": Measurement(0.0083, None, None, "code value")},
+               Timing(0.31, 0.01, 40)),
+    )  # fmt: skip
+    return Results(
+        scene=scene,
+        size=(size, size),
+        frame=Frame(frame, Timing(9.87, 0.21, 40)),
+        device={
+            "cpu": "Some CPU, 2 cores",
+            "gl": {"renderer": "llvmpipe (LLVM 19.1.7, 256 bits)", "version": "4.5 (Core Profile) Mesa 25.0"},
+            "mitsuba": "3.9.1, llvm_ad_rgb",
+            "drjit": "1.5.0",
+            "llvm": "19.1.7",
+        },
+        reference=Reference(512, 8, 14.2, False),
+        effects=effects,
+        closure=Closure({"nrmse": about(0.0021, 0.0002)}, about(-0.0001, 0.0003, "", "mean over 8 batches")),
+        left_out=(
+            LeftOut("effect ssao", "the scene has no crevice that the environment reaches"),
+            LeftOut("material 'lens', alpha BLEND", "no effect blends; the real-time frame draws it opaque"),
+        ),
+        nonfinite=NonFinite(2, {}, {"frame": ((size // 3, size // 4), (size // 2, 3 * size // 4))})
+        if broken
+        else NonFinite(),
+        notes=("The scene has no camera: one was framed around its bounds.",),
+        not_approximated=("environment_visibility", "transmission"),
+        passes=(
+            PassTime("gbuffer", "", 2.11, 0.05),
+            PassTime("shadow map", "shadow_map", 1.92, 0.08),
+            PassTime("shadow lookup", "shadow_map", 1.49, 0.06),
+            PassTime("cook_torrance", "cook_torrance", 1.82, 0.04),
+            PassTime("compose", "", 0.71, 0.02),
+            PassTime("narkowicz", "narkowicz", 0.31, 0.01),
+        ),
+    )

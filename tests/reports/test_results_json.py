@@ -1,0 +1,85 @@
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+from synthetic_pairs import make_results
+
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.results import Frame, Results, ResultsError, from_json, to_json, write_json
+
+
+def test_results_come_back_as_they_were() -> None:
+    results = make_results()
+    assert from_json(to_json(results)) == results
+
+
+def test_document_has_the_stable_keys() -> None:
+    document = json.loads(to_json(make_results()))
+    assert list(document)[:3] == ["schema", "scene", "size"]
+    assert set(document) >= {"schema", "device", "reference", "frame", "effects", "closure", "left_out", "nonfinite"}
+    assert set(document["reference"]) == {"spp", "batches", "seconds", "cached"}
+    assert set(document["frame"]["time_ms"]) == {"median", "mad", "frames"}
+    assert set(document["effects"][0]) == {"effect", "terms", "knobs", "metrics", "time_ms", "share"}
+    assert set(document["closure"]) == {"metrics", "bias"}
+    assert set(document["nonfinite"]) >= {"frame", "effects"}
+    assert document["frame"]["metrics"]["flip"]["floor"] == 0.0041
+    assert "floor" not in document["frame"]["metrics"]["rmse"]
+
+
+def test_numbers_that_are_not_finite_are_strict_json_and_come_back() -> None:
+    metrics = {"rmse": Measurement(math.nan, -math.inf, math.inf)}
+    text = to_json(Results("s", (1, 1), Frame(metrics)))
+
+    def refuse(word: str) -> None:
+        raise AssertionError(word)
+
+    stored = json.loads(text, parse_constant=refuse)["frame"]["metrics"]["rmse"]
+    assert (stored["value"], stored["low"], stored["high"]) == ("NaN", "-Infinity", "Infinity")
+    back = from_json(text).frame.metrics["rmse"]
+    assert math.isnan(back.value)
+    assert (back.low, back.high) == (-math.inf, math.inf)
+
+
+def test_numpy_numbers_are_written_as_numbers() -> None:
+    metrics = {"rmse": Measurement(np.float32(0.5), np.float64(0.25), None)}
+    results = Results("s", (np.int64(4), 3), Frame(metrics), device={"cores": np.int32(2)})
+    document = json.loads(to_json(results))
+    assert document["frame"]["metrics"]["rmse"]["value"] == 0.5
+    assert document["size"] == [4, 3]
+    assert document["device"] == {"cores": 2}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda d: d.update(schema=2), "results.schema: expected 1, found 2"),
+        (lambda d: d.pop("frame"), "results.frame: missing"),
+        (lambda d: d["effects"][1].update(terms="x"), "results.effects[1].terms: expected a list"),
+        (lambda d: d["frame"]["metrics"]["rmse"].update(value="high"), "results.frame.metrics.rmse.value"),
+        (lambda d: d.update(size=[1]), "results.size: expected a list of 2"),
+    ],
+)
+def test_a_wrong_document_is_named(change, said: str) -> None:
+    document = json.loads(to_json(make_results()))
+    change(document)
+    with pytest.raises(ResultsError) as caught:
+        from_json(json.dumps(document))
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["", "{", '{"schema": NaN}', "[]", "3"])
+def test_what_is_not_the_document_is_refused(text: str) -> None:
+    with pytest.raises(ResultsError):
+        from_json(text)
+
+
+def test_write_leaves_only_the_file(tmp_path) -> None:
+    write_json(tmp_path / "results.json", make_results())
+    assert [path.name for path in tmp_path.iterdir()] == ["results.json"]
+
+
+def test_results_are_immutable() -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        make_results().scene = "other"
