@@ -1,5 +1,5 @@
 # Every target sets up what it needs first (.ci/setup), which takes no time once that is there.
-PYTHON_IN := .venv/bin/python
+VENV_PYTHON := .venv/bin/python
 SCENE ?= cornell-box
 OUT ?= lightmeter-out/$(SCENE)
 ARGS ?=
@@ -13,12 +13,12 @@ setup: ## the virtual environment and the system's libraries
 	@bash .ci/setup
 
 compare: setup ## a real-time frame against the truth (SCENE=…, OUT=…, ARGS=…)
-	@$(PYTHON_IN) -m lightmeter compare $(SCENE) -o $(OUT) $(ARGS)
-	@echo "$(abspath $(OUT))/report.html"
+	@$(VENV_PYTHON) -m lightmeter compare $(SCENE) -o $(OUT) $(ARGS)
+	@ls "$(abspath $(OUT))/report.html"
 
 test: ## the tests (ARGS=… goes to pytest)
 	@bash .ci/setup test
-	@$(PYTHON_IN) -m pytest $(ARGS)
+	@$(VENV_PYTHON) -m pytest $(ARGS)
 
 lint: ## ruff, import-linter, pyright
 	@bash .ci/setup lint
@@ -26,12 +26,12 @@ lint: ## ruff, import-linter, pyright
 
 format: ## let ruff lay the code out
 	@bash .ci/setup lint
-	@$(PYTHON_IN) -m ruff check --fix
-	@$(PYTHON_IN) -m ruff format
+	@$(VENV_PYTHON) -m ruff check --fix
+	@$(VENV_PYTHON) -m ruff format
 
 bench: ## speed, beside VTK and flip-evaluator
 	@bash .ci/setup bench test
-	@$(PYTHON_IN) benchmarks/run.py $(ARGS)
+	@$(VENV_PYTHON) benchmarks/run.py $(ARGS)
 
 doctor: setup ## what this machine has and lacks
-	@$(PYTHON_IN) -m lightmeter doctor
+	@$(VENV_PYTHON) -m lightmeter doctor

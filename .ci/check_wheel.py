@@ -58,7 +58,10 @@ def wheel_members(wheel: Path) -> set[str]:
 def complaints(wheel: Path) -> list[str]:
     """What is wrong with a wheel, a line each; nothing where it is right."""
     expected, found = expected_members(), wheel_members(wheel)
-    missing = [f"not in the wheel (is its suffix in DATA of setup.py?): {name}" for name in expected - found]
+    missing = [
+        f"not in the wheel (does setup.py find its folder, and is its suffix in DATA?): {name}"
+        for name in expected - found
+    ]
     foreign = [f"in the wheel, and tracked nowhere: {name}" for name in found - expected]
     return sorted(missing) + sorted(foreign)
 
