@@ -20,7 +20,7 @@ class EffectError(ValueError):
 
 
 def nearest(name: str, known: list[str]) -> str:
-    """" (did you mean 'x'?)" for a misspelt name, else the known names."""
+    """A hint for a misspelt name: "did you mean 'x'?", else the known names."""
     close = get_close_matches(name, known, n=1, cutoff=0.5)
     return f"did you mean {close[0]!r}?" if close else f"there are: {', '.join(sorted(known))}"
 

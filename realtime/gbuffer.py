@@ -135,8 +135,7 @@ class GBuffer:
 
     def _declarations(self) -> str:
         return "\n".join(
-            f"layout(location = {i}) out vec{a.components} out_{a.name};"
-            for i, a in enumerate(self._attachments)
+            f"layout(location = {i}) out vec{a.components} out_{a.name};" for i, a in enumerate(self._attachments)
         )
 
     def _writes(self) -> str:

@@ -1,6 +1,6 @@
 """The frame graph, compiled in plain Python: which effects draw what, in which order, and what is left out and why."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -98,8 +98,8 @@ def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | Non
         taken.add(coverage.name)
     else:
         uncovered.append("coverage")
-    left_out += [_superseded(e, steps, taken, missing) for e in candidates if e.name not in taken]
-    left_out += _idle_terms(missing, candidates)
+    left_out += [_superseded(scene, e, steps) for e in candidates if e.name not in taken]
+    left_out += [LeftOut(f"term {term}", why) for term, why in missing.items()]
     used = {name: (known[name], settings[name]) for name in known if name in taken}
     channels = frozenset(channel for effect, _ in used.values() for channel in effect.channels)
     return Plan(scene, tuple(steps), channels, used, tuple(left_out), tuple(uncovered))
@@ -170,16 +170,12 @@ def _steps(scene: Scene, candidates: list[Effect], missing: Mapping[str, str]) -
     return steps, list(uncovered)
 
 
-def _superseded(effect: Effect, steps: list[Step], taken: set[str], missing: Mapping[str, str]) -> LeftOut:
+def _superseded(scene: Scene, effect: Effect, steps: list[Step]) -> LeftOut:
     """Why a candidate was not taken."""
-    others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)} & taken)
+    lit = any(effect.lights(scene, light) for light in scene.all_lights)
+    if not lit and any(TERMS[term].scope == "light" for term in effect.terms):
+        return LeftOut(effect.name, "the scene has no light of the kinds it handles")
+    others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
     if others:
         return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(effect.terms)} already")
-    if any(TERMS[term].scope == "light" for term in effect.terms):
-        return LeftOut(effect.name, "the scene has no light of the kinds it handles")
     return LeftOut(effect.name, f"nothing in this frame reads {', '.join(effect.terms)}")
-
-
-def _idle_terms(missing: Mapping[str, str], candidates: list[Effect]) -> list[LeftOut]:
-    """The terms that the scene does not have: no pass and no oracle."""
-    return [LeftOut(f"term {term}", why) for term, why in missing.items()]

@@ -36,7 +36,7 @@ def projection_matrix(camera: Camera, size: tuple[int, int], offset: tuple[float
 
 
 def viewer(camera: Camera) -> np.ndarray:
-    """(4,) what shaders compute the direction to the viewer from: position and 1, or for parallel rays direction and 0."""
+    """(4,) what gives shaders the direction to the viewer: position and 1, or for parallel rays direction and 0."""
     if camera.yfov is not None:
         return np.append(camera.position, 1.0)
     return np.append(camera.matrix[:3, 2] / np.linalg.norm(camera.matrix[:3, 2]), 0.0)

@@ -209,7 +209,7 @@ class Renderer:
 
     def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
         """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
-        gbuffer, radiance, stage, passes = self._capture_stage
+        gbuffer, radiance, passes = self._capture_stage
         gbuffer.draw(offset)
         points = self._points(gbuffer, radiance)
         direct, visibility, frame = {}, {}, {}
@@ -223,6 +223,12 @@ class Renderer:
                 (direct if "direct" in step.writes else visibility)[step.light] = values[step.writes[0]]
         return Capture(points, direct, visibility, frame)
 
+    def emission(self, offset: tuple[float, float]) -> np.ndarray:
+        """(H, W, 3) float32: what is seen to emit at a sub-pixel offset, the background included."""
+        gbuffer, radiance, _, _ = self._capture_stage
+        gbuffer.draw(offset)
+        return self.device.read(radiance)[..., :3]
+
     @property
     def _capture_stage(self):
         if not hasattr(self, "_captured"):
@@ -232,7 +238,7 @@ class Renderer:
                 self.device, self._geometry, self.plan.scene, self.size, channels, radiance, identity=True
             )
             stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size)
-            self._captured = gbuffer, radiance, stage, self._make_passes(stage, separate=True)
+            self._captured = gbuffer, radiance, self._make_passes(stage, separate=True)
         return self._captured
 
     def _separate(self, shading: ShadingPass, step: Step) -> dict[str, np.ndarray]:

@@ -23,7 +23,8 @@ def d_ggx(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
     `sin2_h` is |n × h|². The textbook's cos²θ·(α²−1)+1 cancels for small α; cos²θ·α² + sin²θ with the sine taken
     from the cross product does not (as Filament's D_GGX does for half floats).
     """
-    k = alpha / (n_dot_h * n_dot_h * alpha * alpha + sin2_h)
+    # The divisor is at least α² ≥ 1e-6 for a unit h; h is 0 where light comes from straight behind v.
+    k = alpha / xp.maximum(n_dot_h * n_dot_h * alpha * alpha + sin2_h, 1e-12)
     return xp.where(n_dot_h > 0, k * k * (1 / 3.141592653589793), 0 * k)
 
 

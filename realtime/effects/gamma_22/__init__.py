@@ -7,8 +7,6 @@ EFFECT = Effect(
     terms=("encode",),
     summary="A power law, the usual short cut for the sRGB curve, written to 8 bits.",
     citation="Poynton 1998, The Rehabilitation of Gamma",
-    knobs=(
-        Knob("gamma", 2.2, "The display's exponent.", low=1.0, high=4.0, sweep=(1.8, 2.0, 2.2, 2.4)),
-    ),
+    knobs=(Knob("gamma", 2.2, "The display's exponent.", low=1.0, high=4.0, sweep=(1.8, 2.0, 2.2, 2.4)),),
     rank=1,
 )

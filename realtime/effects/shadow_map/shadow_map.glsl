@@ -22,20 +22,48 @@ float bias_distance(float n_dot_l, float texel, float constant, float slope, flo
     return texel * (constant + slope * radius * tangent);
 }
 
-float reached(vec3 point) {
-#if VIEWS == 6
-    int face = cube_face(point - shadow_light.xyz);
-#else
-    const int face = 0;
-#endif
-    vec4 clip = shadow_matrices[face] * vec4(point, 1.0);
-    vec3 coordinate = clip.xyz / clip.w * 0.5 + 0.5;
-    if (clip.w <= 0.0 || any(lessThan(coordinate, vec3(0.0))) || coordinate.z > 1.0) return 1.0;
-    ivec2 texel = ivec2(min(coordinate.xy * float(RESOLUTION), vec2(RESOLUTION - 1)));
-    if (VIEWS == 1 && any(greaterThan(coordinate.xy, vec2(1.0)))) return 1.0;
-    texel += RESOLUTION * ivec2(face % 3, face / 3);
-    return coordinate.z <= texelFetch(shadow_map, texel, 0).r ? 1.0 : 0.0;
+// Window coordinates 0…1 of a point in one view; false behind the light.
+bool project(mat4 view, vec3 point, out vec3 coordinate) {
+    vec4 clip = view * vec4(point, 1.0);
+    coordinate = clip.xyz / clip.w * 0.5 + 0.5;
+    return clip.w > 0.0;
 }
+
+// The comparison with one texel; outside of the map nothing stands in the light's way.
+float compared(ivec2 texel, int face, float depth) {
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(RESOLUTION))) || depth > 1.0) return 1.0;
+    return depth <= texelFetch(shadow_map, texel + RESOLUTION * ivec2(face % 3, face / 3), 0).r ? 1.0 : 0.0;
+}
+
+#if VIEWS == 6
+// On a cube every neighbour finds its own face, so that the faces' edges have no seams.
+float filtered(vec3 point, vec3 to_light, float texel) {
+    vec3 across = abs(to_light.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 right = normalize(cross(across, to_light)) * texel;
+    vec3 up = cross(to_light, right);
+    float sum = 0.0;
+    for (int y = -FILTER_RADIUS; y <= FILTER_RADIUS; ++y)
+        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x) {
+            vec3 neighbour = point + float(x) * right + float(y) * up;
+            int face = cube_face(neighbour - shadow_light.xyz);
+            vec3 coordinate;
+            project(shadow_matrices[face], neighbour, coordinate);
+            ivec2 place = ivec2(clamp(coordinate.xy * float(RESOLUTION), 0.0, float(RESOLUTION - 1)));
+            sum += compared(place, face, coordinate.z);
+        }
+    return sum;
+}
+#else
+float filtered(vec3 point, vec3 to_light, float texel) {
+    vec3 coordinate;
+    if (!project(shadow_matrices[0], point, coordinate)) return float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1));
+    ivec2 centre = ivec2(floor(coordinate.xy * float(RESOLUTION)));
+    float sum = 0.0;
+    for (int y = -FILTER_RADIUS; y <= FILTER_RADIUS; ++y)
+        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x) sum += compared(centre + ivec2(x, y), 0, coordinate.z);
+    return sum;
+}
+#endif
 
 vec3 visibility(Surface surface) {
     vec3 offset = shadow_light.xyz - shadow_light.w * surface.position;
@@ -47,17 +75,5 @@ vec3 visibility(Surface surface) {
     // The farthest corner that is compared lies (radius + ½)·√2 texels away.
     float radius = (float(FILTER_RADIUS) + 0.5) * 1.41421356;
     vec3 point = surface.position + to_light * bias_distance(n_dot_l, texel, bias, slope_bias, radius);
-#if FILTER_RADIUS == 0
-    return vec3(reached(point));
-#else
-    // Neighbours across the light's direction; on a cube each finds its own face, so that edges have no seams.
-    vec3 across = abs(to_light.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    vec3 right = normalize(cross(across, to_light)) * texel;
-    vec3 up = cross(to_light, right);
-    float sum = 0.0;
-    for (int y = -FILTER_RADIUS; y <= FILTER_RADIUS; ++y)
-        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x)
-            sum += reached(point + float(x) * right + float(y) * up);
-    return vec3(sum / float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1)));
-#endif
+    return vec3(filtered(point, to_light, texel) / float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1)));
 }

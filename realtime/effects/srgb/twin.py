@@ -5,6 +5,7 @@ import numpy as np
 from lightmeter.scenes.optics import color
 
 from ...effect import Knobs
+from ...twin import Argument, Twin, logarithmic
 
 
 def srgb_encode(linear: np.ndarray) -> np.ndarray:
@@ -15,3 +16,25 @@ def srgb_encode(linear: np.ndarray) -> np.ndarray:
 def encode(linear: np.ndarray, _knobs: Knobs) -> np.ndarray:
     """The effect as a whole: (…, 3) display-linear to code values."""
     return srgb_encode(linear)
+
+
+TWINS = (
+    Twin(
+        "srgb.glsl",
+        "srgb_encode",
+        "vec3",
+        (
+            Argument(
+                "linear",
+                "vec3",
+                logarithmic(1e-6, 2.0, 3),
+                ((0.0, -1.0, 1.0), (0.0031308, 0.00313, 0.00314), (2.0, 1e30, 0.5)),
+            ),
+        ),
+        srgb_encode,
+        roundings=18 + 2 + 1,
+        why="pow above 0.0031 by GLSL's specification (4.7.1, in ulp): log2 3 ulp of 8.3 (24 eps) times ln 2/2.4, "
+        "exp2 3 + 2·3.5, the product between: 18; llvmpipe (Mesa 22.3) errs by 6.3. Then 1.055 and 0.055; one for the "
+        "exponent's own rounding",
+    ),
+)

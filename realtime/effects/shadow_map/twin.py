@@ -1,0 +1,105 @@
+"""Float64 twins of shadow_map.glsl's geometry; its comparisons read the map and are tested on scenes."""
+
+import numpy as np
+
+from ...shared_twins import stack
+from ...twin import Argument, Twin, direction, logarithmic, uniform
+from .views import CUBE_FACES
+
+
+def cube_face(d: np.ndarray) -> np.ndarray:
+    """The face whose axis a direction is nearest to; x before y before z where two are alike."""
+    looks = np.array([look for look, _ in CUBE_FACES], dtype=np.float64)
+    # argmax takes the first of equals; +0 and −0 count as positive, as in GLSL's comparison.
+    return np.argmax(looks @ d, axis=0).astype(np.float64)
+
+
+def bias_distance(n_dot_l, texel, constant, slope, radius) -> np.ndarray:
+    """Metres towards the light: `constant` texels, and a texel's depth on the slope times the filter's reach."""
+    cosine = np.clip(n_dot_l, 0.05, 1.0)
+    return texel * (constant + slope * radius * np.sqrt(1 - cosine * cosine) / cosine)
+
+
+def project(view: np.ndarray, point: np.ndarray):
+    """Whether the point lies before the light, and its window coordinates 0…1. `view` holds a matrix's columns."""
+    columns = view.reshape(4, 4, -1)
+    clip = columns[0] * point[0] + columns[1] * point[1] + columns[2] * point[2] + columns[3]
+    safe = np.where(clip[3] == 0, 1e-300, clip[3])
+    return (clip[3] > 0).astype(np.float64), stack(*(clip[:3] / safe * 0.5 + 0.5))
+
+
+def before_the_light(view: np.ndarray, point: np.ndarray):
+    """What decides between before and behind: the homogeneous coordinate."""
+    columns = view.reshape(4, 4, -1)
+    terms = [columns[0][3] * point[0], columns[1][3] * point[1], columns[2][3] * point[2], columns[3][3]]
+    return [(np.sum(terms, axis=0), np.sum(np.abs(terms), axis=0))]
+
+
+def views(rng: np.random.Generator, n: int) -> np.ndarray:
+    """(16, n) perspective views from the origin's neighbourhood, 5 to 170 degrees wide, along −z, column by column."""
+    scale = 1 / np.tan(np.radians(rng.uniform(2.5, 85, n)))
+    near, far = rng.uniform(0.01, 0.5, n), rng.uniform(5, 50, n)
+    columns = np.zeros((4, 4, n))
+    columns[0, 0] = columns[1, 1] = scale
+    columns[2, 2], columns[3, 2], columns[2, 3] = (far + near) / (near - far), 2 * far * near / (near - far), -1
+    columns[3, :2] = rng.uniform(-1, 1, (2, n))
+    return columns.reshape(16, n)
+
+
+TWINS = (
+    Twin(
+        "shadow_map.glsl",
+        "cube_face",
+        "int",
+        (
+            Argument(
+                "d",
+                "vec3",
+                direction,
+                (
+                    (1.0, 1.0, 1.0),
+                    (-1.0, 1.0, 1.0),
+                    (0.0, -1.0, 1.0),
+                    (0.0, 0.0, -1.0),
+                    (0.5, -1.0, -1.0),
+                    (-2.0, 0.0, 0.0),
+                ),
+            ),
+        ),
+        cube_face,
+        roundings=0,
+        why="comparisons of the inputs only",
+        defines={"VIEWS": 6, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+    ),
+    Twin(
+        "shadow_map.glsl",
+        "bias_distance",
+        "float",
+        (
+            Argument("n_dot_l", "float", uniform(0.0, 1.0), (0.0, 0.05, 0.0500001, 0.999999, 1.0, 1.02)),
+            Argument("texel", "float", logarithmic(1e-5, 1.0)),
+            Argument("constant", "float", uniform(0.0, 2.0), (0.0,)),
+            Argument("slope", "float", uniform(0.0, 2.0), (0.0,)),
+            Argument("radius", "float", uniform(0.7, 3.0), (0.70710678,)),
+        ),
+        bias_distance,
+        roundings=2 + 3 + 2.5 + 2 + 2,
+        why="1 − c² (2), its root (3), the division (2.5), slope and radius (2), the sum and the texel (2)",
+        defines={"VIEWS": 1, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+    ),
+    Twin(
+        "shadow_map.glsl",
+        "project",
+        "bool",
+        (
+            Argument("view", "mat4", views),
+            Argument("point", "vec3", uniform(-5, 5, 3), ((0.0, 0.0, -1.0),)),
+            Argument("coordinate", "vec3", out=True),
+        ),
+        project,
+        roundings=4 + 2.5 + 2,
+        why="a product and three sums, the division (2.5), the half and its sum",
+        signs=before_the_light,
+        defines={"VIEWS": 1, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+    ),
+)

@@ -1,0 +1,278 @@
+"""Twins of the shared shading functions: `scenes/optics` with NumPy float64."""
+
+import numpy as np
+
+from lightmeter.scenes.optics import frames, lights, material, microfacet
+
+from .twin import Argument, Twin, direction, logarithmic, uniform
+
+CORNERS = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (1.0, 0.0, 0.0))
+
+
+def unit(name: str, boundary: tuple[float, ...] = (0.0, 1.0)) -> Argument:
+    """A scalar in 0…1."""
+    return Argument(name, "float", uniform(0.0, 1.0), boundary)
+
+
+def color(name: str) -> Argument:
+    """A reflectance, 0…1 per channel."""
+    return Argument(name, "vec3", uniform(0.0, 1.0, 3), CORNERS)
+
+
+def cosine(name: str) -> Argument:
+    """A positive cosine, grazing ones as often as steep ones."""
+    return Argument(name, "float", logarithmic(1e-7, 1.0), (1e-7, 0.5, 1.0))
+
+
+def alpha(name: str) -> Argument:
+    """GGX's α from the smallest one up."""
+    return Argument(name, "float", logarithmic(1e-3, 1.0), (1e-3, 1.0))
+
+
+def towards(name: str) -> Argument:
+    """A unit vector."""
+    return Argument(name, "vec3", direction, ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0)))
+
+
+def stack(*components: np.ndarray) -> np.ndarray:
+    """A vector of its components."""
+    return np.stack(np.broadcast_arrays(*components))
+
+
+def point(base_color, metallic, roughness, specular) -> material.MaterialPoint:
+    """A material in the order of the GLSL's arguments."""
+    return material.MaterialPoint(base_color, metallic, roughness, specular)
+
+
+def any_point(**given) -> material.MaterialPoint:
+    """A material of which only some parameters matter."""
+    return material.MaterialPoint(**({"base_color": 0.0, "metallic": 0.0, "roughness": 0.0, "specular": 0.0} | given))
+
+
+def brdf(base_color, metallic, roughness, specular, n, v, l):  # noqa: E741 (l: light, as in the field)
+    """f(v, l)·(n·l) of the whole material."""
+    return material.evaluate(point(base_color, metallic, roughness, specular), n, v, l)
+
+
+def near_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """Half of the lanes get a half vector within the lobe, at angles from 1e-5 to 1; a third looks along the surface.
+
+    Evenly drawn directions would hardly ever meet the lobe of a small α.
+    """
+    base_color, metallic, roughness, specular, n, v, light = inputs
+    count = len(metallic)
+    grazing = rng.random(count) < 0.3
+    tilt = logarithmic(1e-6, 1e-1)(rng, count) * np.sign(rng.uniform(-0.3, 1, count))
+    along = v - n * np.sum(n * v, axis=0)
+    length = np.linalg.norm(along, axis=0)
+    v = np.where(grazing & (length > 0), along / np.where(length > 0, length, 1) + tilt * n, v)
+    v = v / np.linalg.norm(v, axis=0)
+    v = np.where((np.sum(n * v, axis=0) < 0) & ~grazing & (rng.random(count) < 0.8), -v, v)
+    h = n + logarithmic(1e-5, 1.0)(rng, count) * direction(rng, count)
+    h = h / np.linalg.norm(h, axis=0)
+    mirrored = 2 * np.sum(v * h, axis=0) * h - v
+    light = np.where(rng.random(count) < 0.7, mirrored, light)
+    return [base_color, metallic, roughness, specular, n, v, light / np.linalg.norm(light, axis=0)]
+
+
+def brdf_signs(_base_color, _metallic, _roughness, _specular, n, v, light):
+    """The two cosines that decide between light and none."""
+    return [(np.sum(n * d, axis=0), np.sum(np.abs(n * d), axis=0)) for d in (v, light)]
+
+
+def light_towards(light_position, at):
+    """1/d² and the direction, in the order of the GLSL's result and out argument."""
+    to_light, inverse_square = lights.from_position(light_position, at)
+    return inverse_square, to_light
+
+
+def spot(cos_angle, cos_inner, cos_outer):
+    """The falloff from cosines; cos(arccos x) is x to 1e-16."""
+    return lights.spot_attenuation(cos_angle, np.arccos(cos_inner), np.arccos(cos_outer))
+
+
+def transformed(uv, row_u, row_v):
+    """Two rows times (u, v, 1)."""
+    return stack(row_u[0] * uv[0] + row_u[1] * uv[1] + row_u[2], row_v[0] * uv[0] + row_v[1] * uv[1] + row_v[2])
+
+
+def cone_around(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """Inner cosine above the outer one."""
+    cos_angle, first, second = inputs
+    return [cos_angle, np.maximum(first, second), np.minimum(first, second)]
+
+
+def unit_length(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A cosine that leaves nothing of a unit vector out: where both it and the sine vanish there is no D."""
+    n_dot_h, sin2_h, a = inputs
+    return [np.maximum(n_dot_h, np.sqrt(1 - sin2_h)), sin2_h, a]
+
+
+def brightest_at_grazing(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """F90 at least F0, as every material here has it: 0.04·s·(1 − m) + b·m ≤ s·(1 − m) + m.
+
+    Else f90 − f0 would cancel and no count of roundings would hold.
+    """
+    v_dot_h, f0, f90 = inputs
+    return [v_dot_h, np.minimum(f0, f90), np.maximum(f0, f90)]
+
+
+TWINS = (
+    Twin(
+        "brdf.glsl",
+        "d_ggx",
+        "float",
+        (cosine("n_dot_h"), Argument("sin2_h", "float", logarithmic(1e-12, 1.0), (0.0, 1.0)), alpha("alpha")),
+        microfacet.d_ggx,
+        roundings=2 * (3 + 1 + 2.5) + 3,
+        why="k: three products, a sum, a division (2.5 ulp in GLSL's specification), all twice for k²; the square, "
+        "1/π and its product",
+        arrange=unit_length,
+    ),
+    Twin(
+        "brdf.glsl",
+        "v_smith_ggx_correlated",
+        "float",
+        (cosine("n_dot_v"), cosine("n_dot_l"), alpha("alpha")),
+        microfacet.v_smith_ggx_correlated,
+        roundings=5 + 3 + 1 + 1 + 2.5,
+        why="under the root α², 1 − α², two products and a sum; the root (1/inversesqrt: 2 + 1 ulp), the product, the "
+        "sum, the division (2.5)",
+    ),
+    Twin(
+        "brdf.glsl",
+        "f_schlick",
+        "vec3",
+        (
+            Argument("v_dot_h", "float", uniform(0.0, 1.0), (0.0, 1.0, 1.0000001, -1e-7, -0.05)),
+            color("f0"),
+            color("f90"),
+        ),
+        microfacet.f_schlick,
+        roundings=1 + 1 + 1 + 1 + 1 + 1 + 1,
+        why="1 − v·h, m², m⁴, m⁵, f90 − f0, the product and the sum (m's error counts five times: its derivative)",
+        arrange=brightest_at_grazing,
+    ),
+    Twin(
+        "brdf.glsl",
+        "diffuse_color",
+        "vec3",
+        (color("base_color"), unit("metallic")),
+        lambda base_color, metallic: any_point(base_color=base_color, metallic=metallic).diffuse,
+        roundings=2,
+        why="1 − metallic and the product",
+    ),
+    Twin(
+        "brdf.glsl",
+        "reflectance_f0",
+        "vec3",
+        (color("base_color"), unit("metallic"), unit("specular")),
+        lambda base_color, metallic, specular: (
+            any_point(base_color=base_color, metallic=metallic, specular=specular).f0
+        ),
+        roundings=2 + 3,
+        why="0.04, its product; mix: 1 − t, a product and the sum",
+    ),
+    Twin(
+        "brdf.glsl",
+        "reflectance_f90",
+        "vec3",
+        (unit("metallic"), unit("specular")),
+        lambda metallic, specular: stack(*[any_point(metallic=metallic, specular=specular).f90] * 3),
+        roundings=3,
+        why="mix: 1 − t, a product and the sum",
+    ),
+    Twin(
+        "brdf.glsl",
+        "gltf_brdf",
+        "vec3",
+        (
+            color("base_color"),
+            unit("metallic"),
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            unit("specular"),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        brdf,
+        roundings=1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 7 + 5 + 6,
+        why="v + l; its square (3); inversesqrt (2) and the product; n × h (2) and its square (3); D (16), V (12.5), F "
+        "(7) with F0 (5); and in the sum 1 − F, c_diff, 1/π, D·V, F·DV, the sum, n·l: six beyond",
+        arrange=near_the_mirror,
+        signs=brdf_signs,
+    ),
+    Twin(
+        "lights.glsl",
+        "from_position",
+        "float",
+        (
+            Argument("light_position", "vec3", uniform(-10, 10, 3), ((0.0, 0.0, 0.0),)),
+            Argument("point", "vec3", uniform(-10, 10, 3), ((0.0, 0.0, 0.0),)),
+            Argument("direction", "vec3", out=True),
+        ),
+        light_towards,
+        roundings=1 + 3 + 2.5 + 1,
+        why="the difference, a product and two sums, the division (2.5) or inversesqrt (2) and a product",
+    ),
+    Twin(
+        "lights.glsl",
+        "spot_attenuation",
+        "float",
+        (
+            Argument("cos_angle", "float", uniform(-1, 1), (-1.0, 0.0, 0.5, 1.0)),
+            Argument("cos_inner", "float", uniform(-1, 1), (1.0, 0.5, 0.0)),
+            Argument("cos_outer", "float", uniform(-1, 1), (0.4995, 0.5, -1.0)),
+        ),
+        spot,
+        roundings=2 * (2 + 2.5) + 1,
+        why="two differences and the division (2.5), twice for the square; the square",
+        arrange=cone_around,
+    ),
+    Twin(
+        "normal_map.glsl",
+        "tangent_to_world",
+        "vec3",
+        (
+            towards("tangent"),
+            Argument("bitangent_sign", "float", lambda rng, n: rng.choice([-1.0, 1.0], n)),
+            towards("normal"),
+            Argument("mapped", "vec3", uniform(-1, 1, 3), ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))),
+        ),
+        frames.tangent_to_world,
+        roundings=2 + 1 + 3 + 3 + 2 + 1,
+        why="the cross product, its sign, a sum of three products (3); v² (3), inversesqrt (2) and the product",
+    ),
+    Twin(
+        "normal_map.glsl",
+        "decode_normal",
+        "vec3",
+        (color("texel"), Argument("scale", "float", uniform(-2, 2), (0.0, 1.0))),
+        lambda texel, scale: frames.decode_normal(texel, scale, stack),
+        roundings=3,
+        why="2t is exact; the difference and the product, and one for a driver that fuses neither",
+    ),
+    Twin(
+        "textures.glsl",
+        "mirrored",
+        "float",
+        (Argument("x", "float", uniform(-5, 5), (-2.0, -1.0, 0.0, 0.5, 1.0, 2.0)),),
+        lambda x: 1 - np.abs(x - 2 * np.floor(x / 2) - 1),
+        roundings=4,
+        why="mod: x/2 is exact, the floor's product and the difference; two differences",
+        cancels=1.0,
+    ),
+    Twin(
+        "textures.glsl",
+        "transformed",
+        "vec2",
+        (
+            Argument("uv", "vec2", uniform(-2, 2, 2), ((0.0, 0.0), (1.0, 1.0))),
+            Argument("row_u", "vec3", uniform(-3, 3, 3), ((1.0, 0.0, 0.0),)),
+            Argument("row_v", "vec3", uniform(-3, 3, 3), ((0.0, 1.0, 0.0),)),
+        ),
+        transformed,
+        roundings=3,
+        why="a product and two sums",
+    ),
+)

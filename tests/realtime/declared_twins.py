@@ -1,0 +1,19 @@
+"""Finds the twins: those of the shared shaders, and `TWINS` in the `twin.py` of every effect that has one."""
+
+from importlib import import_module
+from pathlib import Path
+
+from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.shaders import SHARED
+from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS
+from lightmeter.realtime.twin import Twin
+
+
+def declared_twins() -> list[tuple[Path, Twin]]:
+    """(folder, twin) of every declaration."""
+    found = [(SHARED, twin) for twin in SHARED_TWINS]
+    for effect in effects().values():
+        if (effect.folder / "twin.py").is_file():
+            module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")
+            found += [(effect.folder, twin) for twin in module.TWINS]
+    return found
