@@ -72,7 +72,11 @@ class Knob:
         if isinstance(self.default, bool):
             words = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
             return words[str(value).lower()] if str(value).lower() in words else int("not a truth value")
+        if isinstance(value, bool) and not isinstance(self.default, str):
+            raise TypeError("a truth value is no number")
         if isinstance(self.default, int):
+            if isinstance(value, float) and value != int(value):
+                raise ValueError("int() would cut it off")
             return int(value)
         return float(value) if isinstance(self.default, float) else str(value)
 
