@@ -1,0 +1,1 @@
+"""The commands, one file each, with `add_options(parser)` and `run(options) -> exit code`."""

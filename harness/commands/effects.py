@@ -1,0 +1,78 @@
+"""`lightmeter effects [NAME]`: what there is, and what one is about."""
+
+import argparse
+import json
+from typing import Any
+
+from lightmeter import options
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """An effect's name, and --json."""
+    parser.add_argument("name", nargs="?", metavar="NAME", help="explain this effect with its knobs")
+    options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """List the effects, or explain one."""
+    from lightmeter.realtime import discovery
+
+    chosen = [discovery.effect(args.name)] if args.name else list(discovery.effects().values())
+    if args.json:
+        print(json.dumps([description(effect) for effect in chosen], indent=2, ensure_ascii=False))
+    elif args.name:
+        _explain(chosen[0])
+    else:
+        _list(chosen)
+    return 0
+
+
+def description(effect) -> dict[str, Any]:
+    """An effect as the JSON of section 6 of the design."""
+    knobs = [
+        {"name": k.name, "default": k.default, "unit": k.unit, "range": k.range, "help": k.help} for k in effect.knobs
+    ]
+    return {
+        "name": effect.name,
+        "terms": list(effect.terms),
+        "summary": effect.summary,
+        "citation": effect.citation,
+        "knobs": knobs,
+    }
+
+
+def _list(effects) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title="Effects", title_justify="left")
+    table.add_column("effect", style="bold", no_wrap=True)
+    table.add_column("terms", no_wrap=True)
+    table.add_column("what it does")
+    table.add_column("knobs")
+    for effect in effects:
+        knobs = ", ".join(knob.name for knob in effect.knobs)
+        table.add_row(effect.name, "\n".join(effect.terms), effect.summary, knobs)
+    Console().print(table)
+
+
+def _explain(effect) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from lightmeter.scenes.terms import TERMS
+
+    console = Console()
+    console.print(f"[bold]{effect.name}[/bold]: {effect.summary}\n")
+    for term in effect.terms:
+        console.print(f"approximates [bold]{term}[/bold]: {TERMS[term].meaning}")
+    console.print(f"source: {effect.citation}\n")
+    if not effect.knobs:
+        console.print("It has no knobs.")
+        return
+    table = Table()
+    for column in ("knob", "default", "unit", "range", "what it does"):
+        table.add_column(column, no_wrap=column == "knob")
+    for knob in effect.knobs:
+        table.add_row(knob.name, str(knob.default), knob.unit, knob.range, knob.help)
+    console.print(table)

@@ -1,0 +1,28 @@
+"""Which exceptions are the user's to mend: they end a command with one message and exit code 2, not a traceback."""
+
+import sys
+
+KNOWN = (
+    ("lightmeter.scenes.errors", "SceneError"),
+    ("lightmeter.realtime.effect", "EffectError"),
+    ("lightmeter.realtime.device", "DeviceError"),
+    ("lightmeter.groundtruth.variant", "NoRendererError"),
+    ("lightmeter.groundtruth.folder", "ReferenceFolderError"),
+    ("lightmeter.metrics.input_error", "InputError"),
+    ("lightmeter.reports.image_error", "ImageError"),
+    ("lightmeter.reports.results", "ResultsError"),
+)
+
+
+class UsageError(ValueError):
+    """A word on the command line or in lightmeter.toml that is wrong; the message says what is right."""
+
+
+def user_failures() -> tuple[type[BaseException], ...]:
+    """The exception classes, of those modules that are loaded: what is not loaded cannot have been raised."""
+    found: list[type[BaseException]] = [UsageError, OSError]
+    for module, name in KNOWN:
+        loaded = sys.modules.get(module)
+        if loaded is not None and hasattr(loaded, name):
+            found.append(getattr(loaded, name))
+    return tuple(found)

@@ -1,0 +1,123 @@
+"""Options that several commands share."""
+
+import argparse
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from lightmeter.failures import UsageError
+
+DEFAULT_SIZE = "512x512"
+DEFAULT_SPP = 64
+MIN_BATCHES = 8
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What the truth may cost.
+
+    Attributes:
+        spp: samples per pixel of the reference and of every oracle, spread over the batches; None: by time.
+        seconds: time for the reference, None: by samples.
+        batches: how many independent batches at least.
+    """
+
+    spp: int | None = DEFAULT_SPP
+    seconds: float | None = None
+    batches: int = MIN_BATCHES
+
+    @property
+    def spp_per_batch(self) -> int:
+        """Samples per pixel of one batch."""
+        return max(1, (self.spp or DEFAULT_SPP) // self.batches)
+
+
+@dataclass(frozen=True)
+class Words:
+    """The choice of effects as the command line says it."""
+
+    only: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
+    use: tuple[str, ...] = ()
+    settings: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """The scene, the camera of a glTF file, and the size."""
+    parser.add_argument("scene", metavar="SCENE", help="a library name, a .toml, a .glb or .gltf file")
+    parser.add_argument("--camera", metavar="NAME", help="which of a glTF file's cameras, by name or number")
+    parser.add_argument("--size", metavar="WxH", default=DEFAULT_SIZE, help="in pixels (default %(default)s)")
+
+
+def add_budget(parser: argparse.ArgumentParser) -> None:
+    """Samples, time and seed of the truth."""
+    parser.add_argument("--spp", type=int, metavar="N", help=f"samples per pixel of the truth (default {DEFAULT_SPP})")
+    parser.add_argument("--seconds", type=float, metavar="S", help="render the reference for S seconds instead")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="names the random numbers (default 0)")
+
+
+def add_choice(parser: argparse.ArgumentParser) -> None:
+    """Which effects take part, with which knobs."""
+    parser.add_argument("--only", metavar="EFFECT,…", default="", help="take just these effects")
+    parser.add_argument("--without", metavar="EFFECT,…", default="", help="leave these effects out")
+    parser.add_argument("--use", metavar="EFFECT,…", default="", help="prefer these among effects for the same term")
+    parser.add_argument(
+        "--set", metavar="EFFECT.KNOB=VALUE", action="append", default=[], help="set a knob; may be repeated"
+    )
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """One JSON document on stdout."""
+    parser.add_argument("--json", action="store_true", help="print one JSON document on stdout")
+
+
+def size(text: str) -> tuple[int, int]:
+    """Width and height from "WxH".
+
+    Raises:
+        UsageError: where it is not two whole numbers from 1 to 16384.
+    """
+    match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip().lower())
+    if not match or not all(1 <= int(n) <= 16384 for n in match.groups()):
+        raise UsageError(f"--size: expected WxH with 1 to 16384 pixels a side, such as 512x512, got {text!r}")
+    return int(match[1]), int(match[2])
+
+
+def budget(args: argparse.Namespace) -> Budget:
+    """The truth's budget.
+
+    Raises:
+        UsageError: where both are given, or one is out of range.
+    """
+    if args.spp is not None and args.seconds is not None:
+        raise UsageError("--spp and --seconds: give one of them")
+    if args.spp is not None and not MIN_BATCHES <= args.spp <= 1 << 20:
+        raise UsageError(
+            f"--spp: expected {MIN_BATCHES} to {1 << 20}, got {args.spp}; every interval needs {MIN_BATCHES} batches"
+        )
+    if args.seconds is not None and not 0 < args.seconds <= 1e6:
+        raise UsageError(f"--seconds: expected a time above 0 and up to 1e6, got {args.seconds}")
+    if not 0 <= args.seed < 1 << 32:
+        raise UsageError(f"--seed: expected 0 to {(1 << 32) - 1}, got {args.seed}")
+    if args.seconds is not None:
+        return Budget(None, args.seconds)
+    return Budget(args.spp or DEFAULT_SPP)
+
+
+def words(args: argparse.Namespace) -> Words:
+    """The choice of effects.
+
+    Raises:
+        UsageError: where a setting is not EFFECT.KNOB=VALUE.
+    """
+    settings: dict[str, dict[str, Any]] = {}
+    for text in args.set:
+        match = re.fullmatch(r"\s*([^.=\s]+)\.([^.=\s]+)\s*=\s*(.+?)\s*", text)
+        if not match:
+            raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
+        settings.setdefault(match[1], {})[match[2]] = match[3]
+    return Words(_names(args.only), _names(args.without), _names(args.use), settings)
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())

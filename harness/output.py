@@ -1,0 +1,79 @@
+"""What `compare` leaves behind: report, results, heatmaps, layers; and what it prints."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from lightmeter.comparison import Outcome, Sides, clipped
+from lightmeter.metrics.flip import ldr_flip
+from lightmeter.reports.display_curve import DisplayCurve
+from lightmeter.reports.heatmap import write_heatmap
+from lightmeter.reports.html import write_report
+from lightmeter.reports.layers import write_layers
+from lightmeter.reports.pictures import Pair, flip_error, rms_error, signed_error
+from lightmeter.reports.results import to_json, write_json
+
+RADIANCE = "W/sr/m²"
+
+
+def write_outcome(folder: Path, outcome: Outcome) -> Path:
+    """Write everything; gives the report's path."""
+    folder.mkdir(parents=True, exist_ok=True)
+    pairs = pictures(outcome)
+    write_json(folder / "results.json", outcome.results)
+    write_layers(folder / "layers.exr", pairs, {"scene": outcome.results.scene})
+    heatmaps = folder / "heatmaps"
+    heatmaps.mkdir(exist_ok=True)
+    for pair in pairs:
+        for error in pair.errors:
+            write_heatmap(heatmaps / f"{pair.name}.{error.name}.png", error, f"{pair.title}: {error.title}")
+    return write_report(folder, outcome.results, pairs, display_curve=display_curve(outcome))
+
+
+def pictures(outcome: Outcome) -> list[Pair]:
+    """The frame against the reference, then every effect against its oracle."""
+    pairs = [
+        _pair("frame", "Frame", (), Sides([outcome.frame.radiance], outcome.reference), outcome, "The whole frame.")
+    ]
+    for name, sides in outcome.sides.items():
+        effect = outcome.plan.effects[name][0]
+        pairs.append(_pair(name, name, effect.terms, sides, outcome, effect.summary))
+    return pairs
+
+
+def _pair(name: str, title: str, terms: tuple[str, ...], sides: Sides, outcome: Outcome, caption: str) -> Pair:
+    tested = np.mean(sides.tested, axis=0, dtype=np.float64).astype(np.float32)
+    truth = np.mean(sides.truth, axis=0, dtype=np.float64).astype(np.float32)
+    linear = sides.space == "scene-linear"
+    unit = RADIANCE if linear else ""
+    display = outcome.display if linear else clipped
+    errors = (
+        flip_error(ldr_flip(display(tested), display(truth))),
+        rms_error(tested, truth, unit),
+        signed_error(tested, truth, unit),
+    )
+    space = "scene-linear" if linear else "display"
+    return Pair(name, title, terms, tested, truth, errors, space=space, unit=unit, caption=caption)
+
+
+def display_curve(outcome: Outcome) -> DisplayCurve:
+    """The display transform of grey: log2 of radiance to code value 0…1."""
+    stops = np.linspace(-16.0, 16.0, 513)
+    grey = np.repeat((2.0**stops)[:, None], 3, axis=1)
+    used = [name for term in ("tone", "encode") if (name := outcome.plan.effect_of(term))]
+    return DisplayCurve(tuple(stops), tuple(outcome.display(grey)[:, 0]), " + ".join(used) or "clipped")
+
+
+def print_outcome(outcome: Outcome, report: Path, json: bool) -> None:
+    """The table, or results.json itself, on stdout; where the report is on stderr or at the end."""
+    if json:
+        sys.stdout.write(to_json(outcome.results))
+        print(f"report: {report}", file=sys.stderr)
+        return
+    from rich.console import Console
+
+    from lightmeter.reports.terminal import comparison
+
+    Console().print(comparison(outcome.results))
+    print(f"report: {report}")

@@ -1,0 +1,177 @@
+"""The exact side of a comparison: the reference's batches and the oracles, made when asked for, or recalled."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from lightmeter.groundtruth.batches import Progress, Reference, reference, reference_in_time
+from lightmeter.groundtruth.content import points_key
+from lightmeter.groundtruth.recall import recall
+from lightmeter.groundtruth.store import Store
+from lightmeter.options import Budget
+from lightmeter.progress import Report, silent
+from lightmeter.scenes.features import missing_terms
+from lightmeter.scenes.model import AreaLight, Scene
+from lightmeter.scenes.points import SurfacePoints
+from lightmeter.stacking import mean_samples, reshape_points
+
+
+@dataclass(frozen=True, eq=False)
+class ExactBatch:
+    """One batch of every term at stacked points, each (n, H, W, 3) float32 in W/(sr·m²).
+
+    Attributes:
+        emission: the points' own.
+        direct, shadowed: per light, B without and A with its shadow.
+        environment, environment_shadowed: B and A; None where the scene has no environment.
+        indirect: None where the scene has none.
+    """
+
+    emission: np.ndarray
+    direct: dict[int, np.ndarray] = field(default_factory=dict)
+    shadowed: dict[int, np.ndarray] = field(default_factory=dict)
+    environment: np.ndarray | None = None
+    environment_shadowed: np.ndarray | None = None
+    indirect: np.ndarray | None = None
+
+    def composition(self) -> np.ndarray:
+        """(H, W, 3) float32: the image with every term exact."""
+        total = self.emission.astype(np.float64)
+        for value in (*self.shadowed.values(), self.environment_shadowed, self.indirect):
+            if value is not None:
+                total += value
+        return mean_samples(total).astype(np.float32)
+
+
+class Truth:
+    """What physics would give for one scene, size, budget and seed. Mitsuba is loaded when it is first needed.
+
+    Args:
+        store: where batches and oracles are kept; None: nowhere.
+        folder: a reference written by `lightmeter reference`, taken in place of rendering one.
+        report: told of progress.
+        say: told, in a sentence, of what the user should know (a damaged file, a reference of another version).
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        budget: Budget,
+        seed: int = 0,
+        *,
+        store: Store | None = None,
+        folder: Path | None = None,
+        report: Report = silent,
+        say: Callable[[str], None] = lambda _message: None,
+    ) -> None:
+        self.scene, self.size, self.budget, self.seed, self.store = scene, size, budget, seed, store
+        self.missing = missing_terms(scene)
+        self._folder, self._report, self._say = folder, report, say
+        self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
+
+    @cached_property
+    def _world(self):
+        from lightmeter.groundtruth.world import World
+
+        return World.of(self.scene)
+
+    @property
+    def batches(self) -> int:
+        """K, the number of independent batches of the reference and of every oracle."""
+        return len(self.reference.batches)
+
+    @cached_property
+    def reference(self) -> Reference:
+        """The reference's batches within the budget."""
+
+        def progress(p: Progress) -> None:
+            self._report("reference", p.done, p.total)
+
+        if self._folder is not None:
+            from lightmeter.groundtruth.folder import load
+
+            return load(self._folder, self.scene, self.size, self._say)
+        common = {"seed": self.seed, "store": self.store, "progress": progress}
+        if self.budget.seconds is not None:
+            return reference_in_time(self.scene, self.size, seconds=self.budget.seconds, **common)
+        spp = self.budget.spp_per_batch
+        return reference(self.scene, self.size, spp=spp, batches=self.budget.batches, **common)
+
+    def exact_material(self, points: SurfacePoints) -> SurfacePoints:
+        """The same points with unfiltered parameters; the points themselves where the scene has no textures."""
+        if "material" in self.missing:
+            return points
+        from lightmeter.groundtruth.oracles import material
+
+        return material.evaluate(self._world, points)
+
+    def batch(self, points: SurfacePoints, batch: int, family: str, keep: bool = True) -> ExactBatch:
+        """One batch of every term at stacked points.
+
+        Args:
+            family: names the random numbers, so that different points are given independent ones.
+            keep: whether the store keeps the oracles one by one.
+        """
+        samples = len(points.shape)
+        spp = max(1, self.reference.spp // samples)
+        options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
+        direct, shadowed, rest = {}, {}, {}
+        if "direct" not in self.missing:
+            for light in range(len(self.scene.all_lights)):
+                shadowed[light], direct[light] = self._light(points, light, options)
+        if "environment" not in self.missing:
+            rest["environment_shadowed"], rest["environment"] = self._environment(points, options)
+        if "indirect" not in self.missing:
+            rest["indirect"] = self._oracle("indirect", points, **options)
+        return ExactBatch(points.emission, direct, shadowed, **rest)
+
+    def _light(self, points: SurfacePoints, light: int, options: dict) -> tuple[np.ndarray, np.ndarray]:
+        """A and B of a light. Punctual lights are exact: every batch is the same."""
+        if not isinstance(self.scene.all_lights[light], AreaLight):
+            options = {**options, "spp": 1, "seed": 0, "batch": 0}
+        if "visibility" in self.missing:
+            unshadowed = self._oracle("direct", points, light=light, **options)
+            return unshadowed, unshadowed
+        both = self._oracle("visibility", points, light=light, **options)
+        return both[0], both[1]
+
+    def _environment(self, points: SurfacePoints, options: dict) -> tuple[np.ndarray, np.ndarray]:
+        if "environment_visibility" in self.missing:
+            unoccluded = self._oracle("environment", points, **options)
+            return unoccluded, unoccluded
+        both = self._oracle("environment_visibility", points, **options)
+        return both[0], both[1]
+
+    def _oracle(
+        self, term: str, points: SurfacePoints, *, light: int | None = None, keep: bool, **options
+    ) -> np.ndarray:
+        """An oracle's batch: (n, H, W, 3), or (2, n, H, W, 3) for A and B."""
+        samples, height, width = points.shape.shape
+        rows = reshape_points(points, (samples * height, width))
+        store = self.store if keep else None
+        image, _ = recall(
+            store,
+            term,
+            self.scene,
+            rows,
+            lambda: self._world,
+            light=light,
+            key=self._key(points) if keep else "",
+            **options,
+        )
+        return image.reshape(*image.shape[:-3], samples, height, width, 3)
+
+    def _key(self, points: SurfacePoints) -> str:
+        """The points' digest, computed once."""
+        if points not in self._keys:
+            self._keys[points] = points_key(points)
+        return self._keys[points]
+
+
+FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000}
+"""What is added to the seed for each set of points."""
