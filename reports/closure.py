@@ -6,7 +6,7 @@ from typing import Literal
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.results import Closure
-from lightmeter.reports.significant import half_width, show_interval, show_value
+from lightmeter.reports.significant import show_interval, show_value
 
 # A wide interval holds 0 and proves nothing; this is the half-width, as a fraction of the mean, up to which a
 # closure counts as shown (the design's bound for the scenes of the library).
@@ -26,19 +26,19 @@ class Statement:
 def closure_statement(closure: Closure) -> Statement:
     """Whether the composition with every term exact meets the reference, and how surely."""
     bias = closure.bias
-    half = half_width(bias)
+    low, high = bias.low, bias.high
     shown = _shown(bias)
     if not math.isfinite(bias.value):
         return Statement("differs", f"With every term exact the composition is not a number: {shown}.")
-    if half is None or not math.isfinite(half):
+    if low is None or high is None or not math.isfinite(high - low):
         return Statement(
             "unknown", f"With every term exact the composition is off by {shown}; no interval, so it proves nothing."
         )
-    if not bias.low <= 0 <= bias.high:
+    if not low <= 0 <= high:
         return Statement(
             "differs", f"With every term exact the composition does not meet the reference: {shown} is unexplained."
         )
-    if half > NARROW:
+    if (high - low) / 2 > NARROW:
         return Statement(
             "wide",
             f"With every term exact the composition agrees with the reference as far as can be told: {shown}. "

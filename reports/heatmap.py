@@ -47,7 +47,7 @@ def colour_map(name: str) -> ColourMap:
     Raises:
         ValueError: a name that is not there.
     """
-    table = json.loads(resources.files(__package__).joinpath("colour_maps.json").read_text(encoding="utf-8"))
+    table = json.loads(resources.files("lightmeter.reports").joinpath("colour_maps.json").read_text(encoding="utf-8"))
     if name not in table:
         raise ValueError(f"colour map '{name}': expected one of {', '.join(table)}")
     entry = table[name]
@@ -115,6 +115,7 @@ def draw_heatmap(
     height, width = pixels.shape[:2]
     sheet = Image.new("RGB", (width + 2 * _MARGIN, height + _TITLE + _BAR + _MARGIN), _PAPER)
     sheet.paste(Image.fromarray(pixels), (_MARGIN, _TITLE))
+    _ring_nonfinite(sheet, error, factor)
     _write_title(sheet, title or error.title)
     _draw_bar(sheet, error, colours, (low, high), _TITLE + height + 14)
     return sheet
@@ -142,6 +143,14 @@ _MARGIN = 16
 _TITLE = 40
 _BAR = 62
 _BAR_HEIGHT = 14
+_RINGS = 64
+
+# Pillow's own font, the only one that is on every machine, has little beyond ASCII.
+_SPELLED = str.maketrans({"²": "^2", "³": "^3", "×": "x", "·": ".", "Δ": "Delta ", "−": "-", "–": "-", "…": "..."})
+
+
+def _spelled(text: str) -> str:
+    return text.translate(_SPELLED).encode("ascii", "replace").decode("ascii")
 
 
 def _font(size: int):
@@ -150,14 +159,27 @@ def _font(size: int):
     return ImageFont.load_default(size)
 
 
+def _ring_nonfinite(sheet: "Image.Image", error: ErrorMap, factor: int) -> None:
+    """A ring around each of the first pixels that are not finite: one pixel alone would not be seen."""
+    from PIL import ImageDraw
+
+    draw = ImageDraw.Draw(sheet)
+    rows, columns = np.nonzero(~np.isfinite(error.values))
+    for row, column in zip(rows[:_RINGS], columns[:_RINGS], strict=True):
+        x, y = _MARGIN + (column + 0.5) * factor, _TITLE + (row + 0.5) * factor
+        for radius, colour in ((factor * 0.75 + 6, (0, 0, 0)), (factor * 0.75 + 5, (255, 255, 255))):
+            draw.ellipse([x - radius, y - radius, x + radius, y + radius], outline=colour)
+
+
 def _write_title(sheet: "Image.Image", title: str) -> None:
     from PIL import ImageDraw
 
     room = sheet.width - 2 * _MARGIN
     font = _font(16)
-    shown = title
-    while shown and font.getlength(shown) > room:
-        shown = shown[:-2] + "…"
+    shown = whole = _spelled(title)
+    while whole and font.getlength(shown) > room:
+        whole = whole[:-1]
+        shown = whole + "..."
     ImageDraw.Draw(sheet).text((_MARGIN, _TITLE // 2), shown, fill=_INK, font=font, anchor="lm")
 
 
@@ -178,7 +200,7 @@ def _draw_bar(sheet: "Image.Image", error: ErrorMap, colours: ColourMap, limits:
         anchor = "lt" if x < _MARGIN + 14 else "rt" if x > _MARGIN + width - 14 else "mt"
         draw.text((x, top + _BAR_HEIGHT + 6), f"{value:.4g}", fill=_INK, font=font, anchor=anchor)
     below = top + _BAR_HEIGHT + 30
-    draw.text((_MARGIN, below), error.unit or "no unit", fill=_INK, font=font, anchor="lm")
+    draw.text((_MARGIN, below), _spelled(error.unit) or "no unit", fill=_INK, font=font, anchor="lm")
     bad = int(np.count_nonzero(~np.isfinite(error.values)))
     if bad:
         note = f"{bad} not finite"

@@ -75,7 +75,7 @@ def _named(name: str) -> dict[str, str]:
     return {"name": name, "label": label(name), "definition": definition(name)}
 
 
-def _time(timing: Timing | None) -> dict[str, str] | None:
+def _time(timing: Timing | None) -> dict[str, Any] | None:
     if timing is None:
         return None
     as_metric = Measurement(timing.median, timing.median - timing.mad, timing.median + timing.mad)

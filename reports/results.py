@@ -213,8 +213,8 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, str):
         return value
-    if hasattr(value, "tolist"):  # a NumPy scalar or array, without importing NumPy
-        return _plain(value.tolist())
+    if tolist := getattr(value, "tolist", None):  # a NumPy scalar or array, without importing NumPy
+        return _plain(tolist())
     if isinstance(value, (Sequence, set, frozenset)):
         return [_plain(item) for item in value]
     if isinstance(value, float) and not math.isfinite(value):

@@ -30,10 +30,10 @@ def show_value(measurement: Measurement, digits: int = 3) -> str:
 
 def show_interval(measurement: Measurement) -> str:
     """The interval alone: "± 0.00021" where it is symmetric, else "0.0119 … 0.0131"; "" where there is none."""
-    half = half_width(measurement)
-    if half is None or not math.isfinite(measurement.value):
-        return ""
     low, high = measurement.low, measurement.high
+    if low is None or high is None or not math.isfinite(measurement.value):
+        return ""
+    half = (high - low) / 2
     if not math.isfinite(half):
         return f"{show_number(low)} … {show_number(high)}"
     if half == 0:
