@@ -75,7 +75,7 @@ class Knob:
         if isinstance(value, bool) and not isinstance(self.default, str):
             raise TypeError("a truth value is no number")
         if isinstance(self.default, int):
-            if isinstance(value, float) and value != int(value):
+            if isinstance(value, float) and not value.is_integer():
                 raise ValueError("int() would cut it off")
             return int(value)
         return float(value) if isinstance(self.default, float) else str(value)

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from lightmeter.scenes.model import Image, Material, Mesh, Scene, Texture
+from lightmeter.scenes.optics.color import srgb_decode
 
 from .device import Device
+from .effect import Knobs
 
-GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT = 0x2901, 0x812F, 0x8370
 GL_SRGB8_ALPHA8 = 0x8C43
 FILTERS = {
     "nearest": 0x2600,
@@ -75,9 +76,15 @@ class Solid:
 
 
 class Geometry:
-    """Uploads every shape once. Textures are uploaded when first asked for."""
+    """Uploads every shape once. Textures are uploaded when first asked for.
 
-    def __init__(self, device: Device, scene: Scene) -> None:
+    Args:
+        filtering: the knobs of the effect that looks textures up; none: as their samplers say.
+    """
+
+    def __init__(self, device: Device, scene: Scene, filtering: Knobs | None = None) -> None:
+        filtering = filtering or {}
+        self._filter, self._anisotropy = filtering.get("filter", "sampler"), float(filtering.get("anisotropy", 1.0))
         self._device, self._scene = device, scene
         self._textures: dict[Texture, Any] = {}
         self.batches = [
@@ -128,9 +135,14 @@ class Geometry:
             internal = GL_SRGB8_ALPHA8 if texture.srgb else None
             out = gl.texture((width, height), 4, texels.tobytes(), internal_format=internal)
         else:
+            if texture.srgb:  # there is no sRGB format for floats: decoded here, alpha as it is
+                texels = np.concatenate([srgb_decode(texels[..., :3]), texels[..., 3:]], axis=2).astype(np.float32)
             out = gl.texture((width, height), 4, texels.tobytes(), dtype="f4")
         if "mipmap" in texture.min_filter:
             out.build_mipmaps()
+        # Clamped, unless repeated: a mirrored coordinate is folded into 0…1 by the shader, and at the fold a texel's
+        # neighbour is itself, as clamping has it.
+        out.repeat_x, out.repeat_y = texture.wrap_u == "repeat", texture.wrap_v == "repeat"
         out.filter = (FILTERS[texture.min_filter], FILTERS[texture.mag_filter])
         return out
 
