@@ -8,7 +8,7 @@ the wheel.
 
 from pathlib import Path
 
-from setuptools import find_packages, setup
+from setuptools import find_namespace_packages, setup
 
 ROOT = Path(__file__).parent
 FOLDERS = {"lightmeter": "harness"} | {
@@ -22,7 +22,8 @@ def packages() -> list[str]:
     found = []
     for package, folder in FOLDERS.items():
         found.append(package)
-        found += [f"{package}.{name}" for name in find_packages(str(ROOT / folder))]
+        # Folders of shaders hold no Python, and are packages all the same: their files are data of the wheel.
+        found += [f"{package}.{name}" for name in find_namespace_packages(str(ROOT / folder))]
     return found
 
 

@@ -1,7 +1,7 @@
 """The main job: one scene, two renderers, and every approximation against its truth."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ from lightmeter.groundtruth.store import Series, Store
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.finite import find_non_finite
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.mse import RADIANCE
 from lightmeter.metrics.registry import measure_all
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
@@ -136,7 +137,7 @@ def compare(
             reference.spp * truth.batches, truth.batches, reference.seconds, reference.reused == truth.batches
         ),
         frame=outcome.Frame(
-            measured.metrics(FRAME_METRICS, Sides([frame.radiance], reference.batches)), _timing(times.frame)
+            measured.metrics(FRAME_METRICS, Sides([frame.radiance], reference.batches), groups=4), _timing(times.frame)
         ),
         effects=tuple(
             outcome.Effect(
@@ -306,15 +307,18 @@ class _Measured:
     def __init__(self, display: Callable[[np.ndarray], np.ndarray], report: Report, total: int) -> None:
         self._display, self._report, self._total, self._done = display, report, total, 0
 
-    def metrics(self, names: tuple[str, ...], sides: Sides) -> dict[str, Measurement]:
-        """The named metrics of two sides."""
+    def metrics(self, names: tuple[str, ...], sides: Sides, groups: int = 0) -> dict[str, Measurement]:
+        """The named metrics of two sides; `groups` jackknife replicates correct those that noise biases."""
         tested = sides.tested[0] if len(sides.tested) == 1 else sides.tested
         comparison = Comparison(tested, sides.truth)
         display = self._display if sides.space == "scene-linear" else clipped
         # SSIM's window is 7 pixels wide; a smaller image has none.
         usable = [n for n in names if n != "ssim" or min(comparison.height, comparison.width) >= 7]
-        options = {"display": display} if {"ssim", "flip", "delta_e_2000"} & set(usable) else {}
+        perceptual = {"ssim", "flip", "delta_e_2000"} & set(usable)
+        options = {"display": display, "groups": groups} if perceptual else {}
         found = measure_all(usable, comparison, **options)
+        if sides.space != "scene-linear":  # a display value is a pure number
+            found = {name: replace(m, unit="" if m.unit == RADIANCE else m.unit) for name, m in found.items()}
         self._done += 1
         self._report("metrics", self._done, self._total)
         return found

@@ -93,11 +93,10 @@ def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | Non
 
     steps, uncovered = _steps(scene, candidates, missing)
     taken = {step.effect for step in steps}
-    coverage = next((e for e in candidates if "coverage" in e.terms), None)
-    if coverage:
-        taken.add(coverage.name)
-    else:
-        uncovered.append("coverage")
+    for term in (t for t in TERMS if TERMS[t].scope == "gbuffer" and t not in missing):
+        variant = next((effect.name for effect in candidates if term in effect.terms), None)
+        taken |= {variant} if variant else set()
+        uncovered += [] if variant else [term]
     left_out += [_superseded(scene, e, steps) for e in candidates if e.name not in taken]
     left_out += [LeftOut(f"term {term}", why) for term, why in missing.items()]
     used = {name: (known[name], settings[name]) for name in known if name in taken}

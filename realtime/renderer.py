@@ -78,7 +78,8 @@ class Renderer:
 
     def __init__(self, device: Device, plan: Plan, size: tuple[int, int]) -> None:
         self.device, self.plan, self.size = device, plan, size
-        self._geometry = Geometry(device, plan.scene)
+        filtering = plan.effect_of("material")
+        self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._emission_target())
