@@ -20,7 +20,7 @@ MARGIN = 1.05
 """How much larger than the bounding sphere the seen sphere is."""
 
 # Directions towards the lights in the camera's frame, their irradiance (W/m²), and the environment's radiance.
-KEY_FROM, KEY = (-0.55, 0.65, 0.55), (2.3, 2.2, 2.05)
+KEY_FROM, KEY = (-0.55, 0.65, 0.55), (2.4, 2.32, 2.2)
 FILL_FROM, FILL = (0.85, 0.1, 0.5), (0.35, 0.42, 0.5)
 SURROUND = (0.25, 0.26, 0.28)
 

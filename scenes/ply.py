@@ -171,7 +171,8 @@ class _Binary:
             )
         dtype = np.dtype([(name, self._order + kind) for name, kind, _ in element.properties])
         table = self._take(dtype, element.count, element.name)
-        return {name: table[name].astype(np.float64) for name, _, _ in element.properties}
+        with np.errstate(invalid="ignore"):  # signalling NaNs; what is not finite is refused later
+            return {name: table[name].astype(np.float64) for name, _, _ in element.properties}
 
     def faces(self, element: _Element) -> tuple[np.ndarray, np.ndarray]:
         _check_face_count(element, len(self._data) - self._at, self._where)

@@ -98,8 +98,8 @@ class Builder:
             assert entry.position is not None and entry.target is not None
             matrix = framing.look_at(entry.position, entry.target, entry.up)
         near, far = framing.clipping_distances(made, matrix)
-        far = entry.far if entry.far is not None else max(far, 2 * (entry.near or 0))
-        near = entry.near if entry.near is not None else min(near, far / 2)
+        far = entry.far or (far if far > (entry.near or 0) else 2 * (entry.near or 0))
+        near = entry.near or (near if near < far else 1e-4 * far)
         yfov = None if entry.yfov is None else float(np.radians(entry.yfov))
         return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure)
 
