@@ -226,7 +226,7 @@ class Renderer:
 
     def emission(self, offset: tuple[float, float]) -> np.ndarray:
         """(H, W, 3) float32: what is seen to emit at a sub-pixel offset, the background included."""
-        gbuffer, radiance, _, _ = self._capture_stage
+        gbuffer, radiance, _ = self._capture_stage
         gbuffer.draw(offset)
         return self.device.read(radiance)[..., :3]
 
