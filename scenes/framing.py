@@ -123,7 +123,7 @@ def default_lights(camera: Camera) -> tuple[tuple[DirectionalLight, ...], Enviro
 
     def light(name: str, towards: Vector, irradiance: Vector) -> DirectionalLight:
         direction = -(camera.matrix[:3, :3] @ np.array(towards))
-        direction /= np.linalg.norm(direction)
-        return DirectionalLight(name, tuple(float(x) for x in direction), irradiance)
+        x, y, z = direction / np.linalg.norm(direction)
+        return DirectionalLight(name, (float(x), float(y), float(z)), irradiance)
 
     return (light("key", KEY_FROM, KEY), light("fill", FILL_FROM, FILL)), Environment(SURROUND)

@@ -38,7 +38,7 @@ def with_tangents(mesh: Mesh, texcoord: int = 0) -> Mesh:
         raise ValueError(f"tangents need normals and texture coordinates {texcoord}")
     mirrored = _mirrored(mesh, texcoord)
     mesh, mirrored_vertex = _split(mesh, mirrored)
-    normals = mesh.normals.astype(np.float64)
+    normals = np.asarray(mesh.normals, dtype=np.float64)
     sums = _corner_sums(mesh, texcoord, mirrored)
     shared = _same_surface(mesh, texcoord, mirrored_vertex)
     total = np.zeros((shared.max(initial=-1) + 1, 3))
@@ -123,7 +123,7 @@ def _corner_sums(mesh: Mesh, texcoord: int, mirrored: np.ndarray) -> np.ndarray:
     growing_u *= np.where(mirrored, 1.0, -1.0)[:, None]  # the sign of the image's area
     flat = t1[:, 0] * t2[:, 1] == t1[:, 1] * t2[:, 0]
     growing_u[flat] = 0
-    normals = mesh.normals.astype(np.float64)[mesh.triangles]
+    normals = np.asarray(mesh.normals, dtype=np.float64)[mesh.triangles]
     directions = _unit(_in_plane(growing_u[:, None, :], normals))
     corners = mesh.positions.astype(np.float64)[mesh.triangles]
     ahead = _unit(_in_plane(np.roll(corners, -1, axis=1) - corners, normals))
@@ -144,7 +144,7 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
 def _same_surface(mesh: Mesh, texcoord: int, mirrored_vertex: np.ndarray) -> np.ndarray:
     """(N,) int64: vertices with equal position, normal, texture coordinate and handedness get equal numbers."""
     key = np.concatenate(
-        [mesh.positions, mesh.normals, mesh.texcoords[texcoord], mirrored_vertex[:, None]],
+        [mesh.positions, np.asarray(mesh.normals), mesh.texcoords[texcoord], mirrored_vertex[:, None]],
         axis=1,
         dtype=np.float32,
     )

@@ -174,7 +174,9 @@ class MetallicRoughness(Part):
 
 
 class Material(Part):
-    metallic_roughness: MetallicRoughness = Field(default_factory=MetallicRoughness, alias="pbrMetallicRoughness")
+    metallic_roughness: MetallicRoughness = Field(
+        default_factory=lambda: MetallicRoughness.model_validate({}), alias="pbrMetallicRoughness"
+    )
     normal_texture: NormalTextureInfo | None = Field(None, alias="normalTexture")
     occlusion_texture: OcclusionTextureInfo | None = Field(None, alias="occlusionTexture")
     emissive_texture: TextureInfo | None = Field(None, alias="emissiveTexture")

@@ -49,11 +49,11 @@ class Textures:
             why = f"its image is {formats[0]}" if formats else "it names no image"
             source.note(f"{here} ({place}) is left out of both pictures: {why}")
             return None
-        sampler = document.Sampler()
+        sampler = document.Sampler.model_validate({})
         if texture.sampler is not None:
             sampler = source.get("samplers", file.samplers, texture.sampler, f"{here}.sampler")
         transform = source.extension(info, "KHR_texture_transform", document.TextureTransform, place)
-        transform = transform or document.TextureTransform()
+        transform = transform or document.TextureTransform.model_validate({})
         return Texture(
             image=self._image(texture.source, here),
             srgb=srgb,

@@ -59,25 +59,28 @@ def _wall(top: float, bottom: float, height: float, segments: int, rings: int) -
     texcoords, triangles = lattice(segments, rings)
     down = np.repeat(np.arange(rings + 1) / rings, segments + 1)
     sin_turn, cos_turn = (np.tile(values, rings + 1) for values in turn(segments))
-    if top == 0:
-        triangles = np.concatenate([triangles[: len(triangles) // 2], triangles[len(triangles) // 2 + segments :]])
-        tip = slice(0, segments + 1)
-        middle = 2 * np.pi * (np.arange(segments + 1) + 0.5) / segments
-        texcoords[tip, 0] += 0.5 / segments
     radii = top + (bottom - top) * down
     positions = np.stack([-radii * sin_turn, height * (0.5 - down), -radii * cos_turn], axis=1)
-    if top == 0:
+    if top == 0:  # the first row is the tip: a vertex per segment, at that segment's middle
+        half, tip = len(triangles) // 2, slice(0, segments + 1)
+        triangles = np.concatenate([triangles[:half], triangles[half + segments :]])
+        texcoords[tip, 0] += 0.5 / segments
+        middle = 2 * np.pi * texcoords[tip, 0]
         sin_turn[tip], cos_turn[tip] = np.sin(middle), np.cos(middle)
-    slope = np.array([height, bottom - top]) / np.hypot(height, bottom - top)
-    normals = np.stack([-slope[0] * sin_turn, np.full_like(sin_turn, slope[1]), -slope[0] * cos_turn], axis=1)
+    out, up = np.array([height, bottom - top]) / np.hypot(height, bottom - top)
+    normals = np.stack([-out * sin_turn, np.full_like(sin_turn, up), -out * cos_turn], axis=1)
     return Mesh(positions, triangles, normals, (texcoords,))
 
 
 def _lifted(lid: Mesh, by: float) -> Mesh:
-    return Mesh(lid.positions + np.float32([0, by, 0]), lid.triangles, lid.normals, lid.texcoords)
+    return Mesh(lid.positions + np.array([0, by, 0]), lid.triangles, lid.normals, lid.texcoords)
 
 
 def _lowered(lid: Mesh, by: float) -> Mesh:
     """The lid lowered and facing −Y, its rim the same as the upper one's bit by bit."""
-    texcoords = lid.texcoords[0] * np.float32([1, -1]) + np.float32([0, 1])
-    return Mesh(lid.positions - np.float32([0, by, 0]), lid.triangles[:, ::-1], -lid.normals, (texcoords,))
+    return Mesh(
+        positions=lid.positions - np.array([0, by, 0]),
+        triangles=lid.triangles[:, ::-1],
+        normals=np.tile((0.0, -1.0, 0.0), (len(lid.positions), 1)),
+        texcoords=(lid.texcoords[0] * (1, -1) + (0, 1),),
+    )
