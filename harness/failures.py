@@ -26,3 +26,10 @@ def user_failures() -> tuple[type[BaseException], ...]:
         if loaded is not None and hasattr(loaded, name):
             found.append(getattr(loaded, name))
     return tuple(found)
+
+
+def explain(error: BaseException) -> str:
+    """The error as one message; the system's own errors without their numbers."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return str(error)

@@ -1,8 +1,12 @@
 """Options that several commands share."""
 
 import argparse
+import math
+import os
 import re
+import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from lightmeter.failures import UsageError
@@ -51,9 +55,11 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
 
 def add_budget(parser: argparse.ArgumentParser) -> None:
     """Samples, time and seed of the truth."""
-    parser.add_argument("--spp", type=int, metavar="N", help=f"samples per pixel of the truth (default {DEFAULT_SPP})")
-    parser.add_argument("--seconds", type=float, metavar="S", help="render the reference for S seconds instead")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="names the random numbers (default 0)")
+    parser.add_argument(
+        "--spp", type=whole, metavar="N", help=f"samples per pixel of the truth (default {DEFAULT_SPP})"
+    )
+    parser.add_argument("--seconds", type=number, metavar="S", help="render the reference for S seconds instead")
+    parser.add_argument("--seed", type=whole, default=0, metavar="N", help="names the random numbers (default 0)")
 
 
 def add_choice(parser: argparse.ArgumentParser) -> None:
@@ -71,15 +77,39 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON document on stdout")
 
 
-def size(text: str) -> tuple[int, int]:
-    """Width and height from "WxH".
+def add_store(parser: argparse.ArgumentParser) -> None:
+    """Whether the store takes part."""
+    parser.add_argument("--no-store", action="store_true", help="neither read nor write the store")
+
+
+def whole(text: str) -> int:
+    """A whole number, for `type=`."""
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected a whole number, got {text!r}") from None
+
+
+def number(text: str) -> float:
+    """A finite number, for `type=`."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"expected a number, got {text!r}")
+    return value
+
+
+def size(text: str, what: str = "--size") -> tuple[int, int]:
+    """Width and height from "WxH"; `what` is what the message calls it.
 
     Raises:
         UsageError: where it is not two whole numbers from 1 to 16384.
     """
     match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip().lower())
     if not match or not all(1 <= int(n) <= 16384 for n in match.groups()):
-        raise UsageError(f"--size: expected WxH with 1 to 16384 pixels a side, such as 512x512, got {text!r}")
+        raise UsageError(f"{what}: expected WxH with 1 to 16384 pixels a side, such as 512x512, got {text!r}")
     return int(match[1]), int(match[2])
 
 
@@ -117,6 +147,30 @@ def words(args: argparse.Namespace) -> Words:
             raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
         settings.setdefault(match[1], {})[match[2]] = match[3]
     return Words(_names(args.only), _names(args.without), _names(args.use), settings)
+
+
+def output_folder(path: str | Path) -> Path:
+    """The folder that results go to, made and tried before hours of work are spent on them.
+
+    Raises:
+        UsageError: it cannot be made or written to.
+    """
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        trial = folder / f".trial-{os.getpid()}"
+        trial.touch()
+        trial.unlink()
+    except FileExistsError:
+        raise UsageError(f"{folder}: expected a folder to write to, found a file; name another with -o") from None
+    except OSError as error:
+        raise UsageError(f"{folder}: cannot be written to ({error.strerror}); name another folder with -o") from None
+    return folder
+
+
+def say(message: str) -> None:
+    """Tells the user something that is no result, on stderr."""
+    print(f"lightmeter: {message}", file=sys.stderr)
 
 
 def _names(text: str) -> tuple[str, ...]:

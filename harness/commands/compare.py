@@ -1,7 +1,6 @@
 """`lightmeter compare SCENE`: the main job."""
 
 import argparse
-import sys
 from pathlib import Path
 
 from lightmeter import options
@@ -15,7 +14,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     options.add_choice(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where the report goes (default lightmeter-out/SCENE)")
     parser.add_argument("--reference", metavar="DIR", help="a reference that `lightmeter reference` wrote")
-    parser.add_argument("--no-store", action="store_true", help="neither read nor write the store")
+    options.add_store(parser)
     options.add_json(parser)
 
 
@@ -28,19 +27,19 @@ def run(args: argparse.Namespace) -> int:
 
     scene = load(args.scene, args.camera)
     choice = Choice(words.only, words.without, words.use, words.settings)
-
-    def say(message: str) -> None:
-        print(f"lightmeter: {message}", file=sys.stderr)
+    output = options.output_folder(args.output or f"lightmeter-out/{scene.name}")
 
     from lightmeter.comparison import compare
     from lightmeter.output import print_outcome, write_outcome
 
-    store = None if args.no_store else Store(say=say)
+    store = None if args.no_store else Store(say=options.say)
     folder = Path(args.reference) if args.reference else None
     with progress_bar() as report:
-        outcome = compare(scene, size, budget, args.seed, choice, store=store, folder=folder, report=report, say=say)
+        outcome = compare(
+            scene, size, budget, args.seed, choice, store=store, folder=folder, report=report, say=options.say
+        )
         report("report", 0, 1)
-        target = write_outcome(Path(args.output or f"lightmeter-out/{scene.name}"), outcome)
+        target = write_outcome(output, outcome)
         report("report", 1, 1)
     print_outcome(outcome, target, args.json)
     return 0

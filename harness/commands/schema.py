@@ -3,9 +3,12 @@
 import argparse
 import json
 
+from lightmeter import options
 
-def add_options(_parser: argparse.ArgumentParser) -> None:
-    """None."""
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Just --json, as every command has it: the schema is JSON in any case."""
+    options.add_json(parser)
 
 
 def run(_args: argparse.Namespace) -> int:
