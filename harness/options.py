@@ -146,7 +146,7 @@ def words(args: argparse.Namespace) -> Words:
         if not match:
             raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
         settings.setdefault(match[1], {})[match[2]] = match[3]
-    return Words(_names(args.only), _names(args.without), _names(args.use), settings)
+    return Words(names(args.only), names(args.without), names(args.use), settings)
 
 
 def output_folder(path: str | Path) -> Path:
@@ -173,5 +173,6 @@ def say(message: str) -> None:
     print(f"lightmeter: {message}", file=sys.stderr)
 
 
-def _names(text: str) -> tuple[str, ...]:
+def names(text: str) -> tuple[str, ...]:
+    """The names in a list with commas."""
     return tuple(name.strip() for name in text.split(",") if name.strip())

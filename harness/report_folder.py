@@ -1,0 +1,23 @@
+"""A folder with everything that a report has: results.json, layers.exr, heatmaps, report.html."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from lightmeter.reports.display_curve import DisplayCurve
+from lightmeter.reports.heatmap import write_heatmap
+from lightmeter.reports.html import write_report
+from lightmeter.reports.layers import write_layers
+from lightmeter.reports.pictures import Pair
+from lightmeter.reports.results import Results, write_json
+
+
+def write_folder(folder: Path, results: Results, pairs: Sequence[Pair], curve: DisplayCurve | None = None) -> Path:
+    """Write it all; gives the report's path. Each file is written in one step."""
+    heatmaps = folder / "heatmaps"
+    heatmaps.mkdir(parents=True, exist_ok=True)
+    write_json(folder / "results.json", results)
+    write_layers(folder / "layers.exr", pairs, {"scene": results.scene})
+    for pair in pairs:
+        for error in pair.errors:
+            write_heatmap(heatmaps / f"{pair.name}.{error.name}.png", error, f"{pair.title}: {error.title}")
+    return write_report(folder, results, pairs, display_curve=curve)
