@@ -28,7 +28,7 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 
 NOT_TWINNED = {
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
-    "shadow_map.glsl": {"compared", "filtered", "visibility"},  # read the map: test_shadow_maps.py
+    "shadow_map.glsl": {"filtered", "visibility"},  # read the map: test_shadow_maps.py
 }
 """Plumbing that reads textures, and what is made of it alone."""
 

@@ -5,23 +5,13 @@ from typing import Any
 from ...device import set_uniforms
 from ...effect import Knobs
 from ...gbuffer import material_uniforms, texture_declaration, usable_slots
+from ...geometry import Batch
 from ...shaders import Source, source
+from ...shading import bind
 from ...stage import Stage
 from .views import ShadowViews, shadow_views
 
 DEPTH_ONLY = "void main() {}\n"
-MASKED = """#include "textures.glsl"
-in vec2 uv0;
-#ifdef HAS_TEXCOORD1
-in vec2 uv1;
-#endif
-uniform vec4 base_color_factor;
-uniform float alpha_cutoff;
-DECLARATION
-void main() {
-    if (base_color_factor.a * look_up_base_color().a < alpha_cutoff) discard;
-}
-"""
 
 
 class Passes:
@@ -35,6 +25,7 @@ class Passes:
         self._views: dict[int, ShadowViews] = {}
         self._program: Any = None
         self._masked: dict[int, Any] = {}
+        self._programs: dict[tuple, Any] = {}
 
     def defines(self, light: int) -> dict[str, object]:
         """What the comparison's shader is compiled with."""
@@ -45,7 +36,9 @@ class Passes:
         """The light's views."""
         if light not in self._views:
             scene = self._stage.scene
-            self._views[light] = shadow_views(scene, scene.all_lights[light], self._resolution)
+            # One texel more than the filter reaches, for rounding at the edge.
+            border = self._radius + 1
+            self._views[light] = shadow_views(scene, scene.all_lights[light], self._resolution, border)
         return self._views[light]
 
     def draw(self, light: int) -> None:
@@ -82,7 +75,7 @@ class Passes:
     def _draw_shapes(self, matrix, excluded: int | None) -> None:
         device, geometry = self._stage.device, self._stage.geometry
         if self._program is None:
-            self._program = device.program(source(DEPTH_ONLY), source("depth.vert", folder=self._folder))
+            self._program = device.program(source(DEPTH_ONLY), source("gbuffer.vert"))
             self._solid = geometry.solid.vertices(device, self._program)
         set_uniforms(self._program, {"view_projection": matrix})
         for first, count in geometry.solid.ranges(excluded):
@@ -91,18 +84,24 @@ class Passes:
             if batch.material.alpha_mode == "mask" and batch.shape != excluded:
                 self._draw_masked(batch, matrix)
 
-    def _draw_masked(self, batch, matrix) -> None:
+    def _draw_masked(self, batch: Batch, matrix) -> None:
         device, geometry = self._stage.device, self._stage.geometry
-        slot = next((s for s in usable_slots(batch) if s[0] == "base_color"), None)
         if batch.shape not in self._masked:
-            defines = {"ALPHA_MASK": slot is not None, "HAS_TEXCOORD1": "texcoord1" in batch.has}
-            text = DEPTH_ONLY if slot is None else MASKED
-            fragment = source(text, defines).text.replace("DECLARATION", texture_declaration(slot) if slot else "")
-            program = device.program(Source(fragment), source("depth.vert", defines, self._folder))
+            program = self._masked_program(batch)
             self._masked[batch.shape] = program, batch.vertices(device, program)
         program, vertices = self._masked[batch.shape]
         set_uniforms(program, material_uniforms(batch.material) | {"view_projection": matrix})
-        if slot:
-            geometry.texture(batch.material.base_color_texture).use(0)
-            program["base_color_texture"].value = 0
+        bind(program, {f"{slot}_texture": geometry.texture(t) for slot, t in batch.material.textures.items()})
         device.draw(vertices, batch.count)
+
+    def _masked_program(self, batch: Batch):
+        """A program that leaves holes where the shape's alpha is below its cut-off, as the G-buffer's does."""
+        slots = tuple(slot for slot in usable_slots(batch) if slot[0] == "base_color")
+        key = batch.has, slots
+        if key not in self._programs:
+            defines: dict[str, object] = {f"HAS_{name.upper()}": True for name in batch.has}
+            defines["TEXTURE_BASE_COLOR"] = bool(slots)
+            fragment = source("masked.frag", defines, self._folder).text
+            fragment = fragment.replace("TEXTURE_DECLARATIONS", "\n".join(map(texture_declaration, slots)))
+            self._programs[key] = self._stage.device.program(Source(fragment), source("gbuffer.vert", defines))
+        return self._programs[key]

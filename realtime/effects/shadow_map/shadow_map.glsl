@@ -14,12 +14,12 @@ int cube_face(vec3 d) {
     return d.z >= 0.0 ? 4 : 5;
 }
 
-// How far a point moves towards the light: a texel seen at a slope spans texel·tan θ of depth, and a filter of the
-// given radius (in texels) reaches that much further.
-float bias_distance(float n_dot_l, float texel, float constant, float slope, float radius) {
-    float cosine = clamp(n_dot_l, 0.05, 1.0);
-    float tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    return texel * (constant + slope * radius * tangent);
+// How far a point moves towards the light so that its own surface does not shadow it. One texel further along the map
+// a plane's depth changes by texel·√(1 − (n·a)²)·|l·a|/(n·l), with `a` the map's axis; where the light is straight along
+// the axis that is texel·tan θ. The filter's farthest corner lies `radius` texels away.
+float bias_distance(float n_dot_l, float n_dot_a, float l_dot_a, float texel, float constant, float slope, float radius) {
+    float across = sqrt(max(1.0 - n_dot_a * n_dot_a, 0.0));
+    return texel * (constant + slope * radius * across * abs(l_dot_a) / clamp(n_dot_l, 0.05, 1.0));
 }
 
 // Window coordinates 0…1 of a point in one view; false behind the light.
@@ -29,51 +29,39 @@ bool project(mat4 view, vec3 point, out vec3 coordinate) {
     return clip.w > 0.0;
 }
 
-// The comparison with one texel; outside of the map nothing stands in the light's way.
-float compared(ivec2 texel, int face, float depth) {
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(RESOLUTION))) || depth > 1.0) return 1.0;
-    return depth <= texelFetch(shadow_map, texel + RESOLUTION * ivec2(face % 3, face / 3), 0).r ? 1.0 : 0.0;
-}
-
-#if VIEWS == 6
-// On a cube every neighbour finds its own face, so that the faces' edges have no seams.
-float filtered(vec3 point, vec3 to_light, float texel) {
-    vec3 across = abs(to_light.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    vec3 right = normalize(cross(across, to_light)) * texel;
-    vec3 up = cross(to_light, right);
+// The share of neighbouring texels that are not nearer to the light. Views have a border as wide as the filter, so that
+// no neighbour of a point within is outside.
+float filtered(vec3 coordinate, int face) {
+    ivec2 centre = ivec2(coordinate.xy * float(RESOLUTION)) + RESOLUTION * ivec2(face % 3, face / 3);
     float sum = 0.0;
     for (int y = -FILTER_RADIUS; y <= FILTER_RADIUS; ++y)
-        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x) {
-            vec3 neighbour = point + float(x) * right + float(y) * up;
-            int face = cube_face(neighbour - shadow_light.xyz);
-            vec3 coordinate;
-            project(shadow_matrices[face], neighbour, coordinate);
-            ivec2 place = ivec2(clamp(coordinate.xy * float(RESOLUTION), 0.0, float(RESOLUTION - 1)));
-            sum += compared(place, face, coordinate.z);
-        }
-    return sum;
+        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x)
+            sum += coordinate.z <= texelFetch(shadow_map, centre + ivec2(x, y), 0).r ? 1.0 : 0.0;
+    return sum / float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1));
 }
-#else
-float filtered(vec3 point, vec3 to_light, float texel) {
-    vec3 coordinate;
-    if (!project(shadow_matrices[0], point, coordinate)) return float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1));
-    ivec2 centre = ivec2(floor(coordinate.xy * float(RESOLUTION)));
-    float sum = 0.0;
-    for (int y = -FILTER_RADIUS; y <= FILTER_RADIUS; ++y)
-        for (int x = -FILTER_RADIUS; x <= FILTER_RADIUS; ++x) sum += compared(centre + ivec2(x, y), 0, coordinate.z);
-    return sum;
-}
-#endif
 
 vec3 visibility(Surface surface) {
     vec3 offset = shadow_light.xyz - shadow_light.w * surface.position;
     float distance_to_light = length(offset);
     vec3 to_light = offset / distance_to_light;
-    float texel = shadow_texel * (shadow_light.w > 0.0 ? distance_to_light : 1.0);
     float n_dot_l = dot(surface.normal, to_light);
     if (n_dot_l <= 0.0) return vec3(0.0);
-    // The farthest corner that is compared lies (radius + ½)·√2 texels away.
+#if VIEWS == 6
+    int face = cube_face(-offset);
+#else
+    int face = 0;
+#endif
+    mat4 view = shadow_matrices[face];
+    // A perspective view's last row is its axis.
+    vec3 axis = shadow_light.w > 0.0 ? vec3(view[0].w, view[1].w, view[2].w) : to_light;
+    float texel = shadow_texel * (shadow_light.w > 0.0 ? distance_to_light : 1.0);
     float radius = (float(FILTER_RADIUS) + 0.5) * 1.41421356;
-    vec3 point = surface.position + to_light * bias_distance(n_dot_l, texel, bias, slope_bias, radius);
-    return vec3(filtered(point, to_light, texel) / float((2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1)));
+    vec3 point = surface.position + to_light * bias_distance(n_dot_l, dot(surface.normal, axis), dot(to_light, axis),
+                                                            texel, bias, slope_bias, radius);
+    vec3 coordinate;
+    bool before = project(view, point, coordinate);
+    // Outside of the map, and behind a spot, nothing stands in the light's way (nor does any light arrive).
+    float margin = float(FILTER_RADIUS) / float(RESOLUTION);
+    bool inside = all(greaterThanEqual(coordinate.xy, vec2(margin))) && all(lessThan(coordinate, vec3(vec2(1.0 - margin), 1.0)));
+    return vec3(before && inside ? filtered(coordinate, face) : 1.0);
 }

@@ -14,10 +14,10 @@ def cube_face(d: np.ndarray) -> np.ndarray:
     return np.argmax(looks @ d, axis=0).astype(np.float64)
 
 
-def bias_distance(n_dot_l, texel, constant, slope, radius) -> np.ndarray:
+def bias_distance(n_dot_l, n_dot_a, l_dot_a, texel, constant, slope, radius) -> np.ndarray:
     """Metres towards the light: `constant` texels, and a texel's depth on the slope times the filter's reach."""
-    cosine = np.clip(n_dot_l, 0.05, 1.0)
-    return texel * (constant + slope * radius * np.sqrt(1 - cosine * cosine) / cosine)
+    across = np.sqrt(np.maximum(1 - n_dot_a * n_dot_a, 0))
+    return texel * (constant + slope * radius * across * np.abs(l_dot_a) / np.clip(n_dot_l, 0.05, 1.0))
 
 
 def project(view: np.ndarray, point: np.ndarray):
@@ -77,14 +77,16 @@ TWINS = (
         "float",
         (
             Argument("n_dot_l", "float", uniform(0.0, 1.0), (0.0, 0.05, 0.0500001, 0.999999, 1.0, 1.02)),
+            Argument("n_dot_a", "float", uniform(-1.0, 1.0), (0.0, 0.9, -0.9)),
+            Argument("l_dot_a", "float", uniform(-1.0, 1.0), (0.0, 1.0, -1.0)),
             Argument("texel", "float", logarithmic(1e-5, 1.0)),
             Argument("constant", "float", uniform(0.0, 2.0), (0.0,)),
             Argument("slope", "float", uniform(0.0, 2.0), (0.0,)),
             Argument("radius", "float", uniform(0.7, 3.0), (0.70710678,)),
         ),
         bias_distance,
-        roundings=2 + 3 + 2.5 + 2 + 2,
-        why="1 − c² (2), its root (3), the division (2.5), slope and radius (2), the sum and the texel (2)",
+        roundings=2 + 3 + 3 + 2.5 + 2,
+        why="1 − (n·a)² (2), its root (3), three products, the division (2.5), the sum and the texel (2)",
         defines={"VIEWS": 1, "RESOLUTION": 16, "FILTER_RADIUS": 1},
     ),
     Twin(

@@ -43,15 +43,22 @@ class ShadowViews:
         return len(self.matrices) == 6
 
 
-def shadow_views(scene: Scene, light: Light, resolution: int) -> ShadowViews:
-    """The views that a light's shadow maps are drawn from."""
+def shadow_views(scene: Scene, light: Light, resolution: int, border: int) -> ShadowViews:
+    """The views that a light's shadow maps are drawn from.
+
+    Args:
+        resolution: texels along a side.
+        border: texels along each edge that only a filter's neighbours reach. On a cube they repeat what the next
+            face shows, so that its edges have no seams.
+    """
+    used = resolution - 2 * border
     if isinstance(light, DirectionalLight):
-        return _parallel(scene, np.array(light.direction, dtype=np.float64), resolution)
+        return _parallel(scene, np.array(light.direction, dtype=np.float64), used, border)
     if isinstance(light, SpotLight) and light.outer < WIDEST_SPOT:
-        return _cone(scene, light, resolution)
+        return _cone(scene, light, used, border)
     if isinstance(light, AreaLight):
-        return _cube(scene, emitter(scene, light).centre, resolution, light.shape)
-    return _cube(scene, np.array(light.position, dtype=np.float64), resolution, None)
+        return _cube(scene, emitter(scene, light).centre, used, border, light.shape)
+    return _cube(scene, np.array(light.position, dtype=np.float64), used, border, None)
 
 
 def _corners(scene: Scene) -> np.ndarray:
@@ -59,29 +66,32 @@ def _corners(scene: Scene) -> np.ndarray:
     return np.array([[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)])
 
 
-def _parallel(scene: Scene, direction: np.ndarray, resolution: int) -> ShadowViews:
+def _parallel(scene: Scene, direction: np.ndarray, used: int, border: int) -> ShadowViews:
     view = _look(np.zeros(3), direction, _any_up(direction))
     corners = _corners(scene) @ view[:3, :3].T
     low, high = corners.min(axis=0), corners.max(axis=0)
-    # A border of a texel keeps the outermost points inside; a flat scene still gets some depth.
-    margin = np.maximum(high - low, 1e-6 * max(np.ptp(corners), 1e-6)) * (1.5 / resolution) + 1e-6 * np.ptp(corners)
+    # A flat scene still gets some depth, and rounding does not push the outermost points outside.
+    size = max(float(np.ptp(corners)), 1e-6)
+    margin = np.maximum(high - low, 1e-6 * size) * (border / used) + 1e-5 * size
     low, high = low - margin, high + margin
     extent = high - low
     matrix = np.diag([2 / extent[0], 2 / extent[1], -2 / extent[2], 1.0])
     matrix[:3, 3] = -(high + low) / extent * np.array([1, 1, -1])
-    return ShadowViews((matrix @ view)[None], np.append(-direction, 0.0), float(max(extent[:2])) / resolution)
+    return ShadowViews((matrix @ view)[None], np.append(-direction, 0.0), float(max(extent[:2])) / (used + 2 * border))
 
 
-def _cone(scene: Scene, light: SpotLight, resolution: int) -> ShadowViews:
+def _cone(scene: Scene, light: SpotLight, used: int, border: int) -> ShadowViews:
     position, direction = np.array(light.position), np.array(light.direction)
-    matrix = _perspective(2 * light.outer, *_range(scene, position)) @ _look(position, direction, _any_up(direction))
-    return ShadowViews(matrix[None], np.append(position, 1.0), 2 * math.tan(light.outer) / resolution)
+    tangent = math.tan(light.outer)
+    projection = _perspective(tangent * (1 + 2 * border / used), *_range(scene, position))
+    matrix = projection @ _look(position, direction, _any_up(direction))
+    return ShadowViews(matrix[None], np.append(position, 1.0), 2 * tangent / used)
 
 
-def _cube(scene: Scene, position: np.ndarray, resolution: int, excluded: int | None) -> ShadowViews:
-    projection = _perspective(math.pi / 2, *_range(scene, position))
+def _cube(scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None) -> ShadowViews:
+    projection = _perspective(1 + 2 * border / used, *_range(scene, position))
     faces = [projection @ _look(position, np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES]
-    return ShadowViews(np.stack(faces), np.append(position, 1.0), 2.0 / resolution, excluded)
+    return ShadowViews(np.stack(faces), np.append(position, 1.0), 2.0 / used, excluded)
 
 
 def _range(scene: Scene, position: np.ndarray) -> tuple[float, float]:
@@ -92,9 +102,9 @@ def _range(scene: Scene, position: np.ndarray) -> tuple[float, float]:
     return max(outside / 2, far * 1e-3), far
 
 
-def _perspective(angle: float, near: float, far: float) -> np.ndarray:
-    scale = 1 / math.tan(angle / 2)
-    matrix = np.diag([scale, scale, (far + near) / (near - far), 0.0])
+def _perspective(tangent: float, near: float, far: float) -> np.ndarray:
+    """Clip space of a square view; `tangent` of half its angle."""
+    matrix = np.diag([1 / tangent, 1 / tangent, (far + near) / (near - far), 0.0])
     matrix[2, 3], matrix[3, 2] = 2 * far * near / (near - far), -1
     return matrix
 
