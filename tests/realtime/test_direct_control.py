@@ -1,0 +1,153 @@
+"""The measured frame against the definition: `direct` in float64 at the captured points, and the composition.
+
+The bound on `direct`. The inputs are the G-buffer's own float32 numbers, so that only the shader's arithmetic counts.
+With k roundings of at most ε = 2⁻²³ on the longest path, the result is exact for inputs moved by k·ε:
+|Δ| ≤ k·ε·(|f| + Σ |xᵢ|·|∂f/∂xᵢ|), over position, light, normal, view and the material's numbers; a vector counts with
+its norm. k: the offset (1), its square (3), inversesqrt (2), the product (1), the falloff (10), the light's power (2),
+and the material's own 58.5 (`shared_twins.py`): 78. The view direction is normalised on the device (7 roundings) and
+recomputed here: it stands among the moved inputs. Derivatives are finite differences. Where float32 cannot tell the
+sign of n·l or n·v, either branch is right, and those pixels' radiance is below k·ε times the light's.
+"""
+
+import numpy as np
+import pytest
+from small_scenes import renderer
+
+from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.display import display_transform
+from lightmeter.realtime.graph import Choice, compile_plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.scenes.load import load
+from lightmeter.scenes.model import DirectionalLight, SpotLight
+from lightmeter.scenes.optics import lights, material
+
+EPS = float(np.finfo(np.float32).eps)
+ROUNDINGS = 78
+STEP = 1e-6
+
+
+def exact_direct(light, source, position, normal, view, base_color, metallic, roughness, specular):
+    """Unshadowed reflected radiance, (3, N) float64; `source` is the light's position, or the direction towards it."""
+    point = material.MaterialPoint(base_color, metallic, roughness, specular)
+    if isinstance(light, DirectionalLight):
+        power, received, to_light = light.irradiance, 1.0, source / np.linalg.norm(source, axis=0)
+    else:
+        power = light.intensity
+        to_light, received = lights.from_position(source, position)
+        if isinstance(light, SpotLight):
+            cosine = -np.sum(to_light * np.array(light.direction)[:, None], axis=0)
+            received = received * lights.spot_attenuation(cosine, light.inner, light.outer)
+    return np.array(power)[:, None] * received * material.evaluate(point, normal, view, to_light)
+
+
+def inputs_of(points, light) -> list[np.ndarray]:
+    """Everything `exact_direct` takes, components first, float64 from the G-buffer's float32."""
+    at = points.at(points.hit)
+    source = -np.array(light.direction) if isinstance(light, DirectionalLight) else np.array(light.position)
+    source = np.broadcast_to(source.astype(np.float32).astype(np.float64)[:, None], (3, len(at.position)))
+    vectors = [a.astype(np.float64).T for a in (at.position, at.normal, at.view, at.base_color)]
+    scalars = [a.astype(np.float64) for a in (at.metallic, at.roughness, at.specular)]
+    return [source, *vectors, *scalars]
+
+
+def bound(light, inputs, value) -> np.ndarray:
+    """The bound of the module's text, (3, N)."""
+    reach = np.abs(value)
+    for index, given in enumerate(inputs):
+        norm = np.linalg.norm(given, axis=0) if given.ndim == 2 else np.abs(given)
+        step = STEP * np.maximum(norm, 1e-30)
+        for component in range(len(given) if given.ndim == 2 else 1):
+            moved = given.copy()
+            if given.ndim == 2:
+                moved[component] += step
+            else:
+                moved = given + step
+            there = exact_direct(light, *inputs[:index], moved, *inputs[index + 1 :])
+            reach = reach + np.abs(there - value) / step * norm
+    return ROUNDINGS * EPS * reach + 1e-30
+
+
+@pytest.fixture(scope="module")
+def grid(device):
+    """The metalness × roughness grid, without shadows, and what was captured of it."""
+    plan = compile_plan(load("metal-rough-grid"), effects(), Choice(without=("shadow_map",)))
+    maker = Renderer(device, plan, (160, 160))
+    return plan.scene, maker, maker.capture((0.17, -0.31))
+
+
+@pytest.mark.parametrize("index", [0, 1, 2])
+def test_direct_is_the_definition_to_rounding(grid, index, record_property):
+    scene, _, seen = grid
+    light = scene.lights[index]
+    inputs = inputs_of(seen.points, light)
+    value = exact_direct(light, *inputs)
+    allowed = bound(light, inputs, value)
+    got = seen.direct[index][seen.points.hit].T.astype(np.float64)
+    _, normal, view = inputs[1:4]
+    to_light = inputs[0] - inputs[1] * (not isinstance(light, DirectionalLight))
+    to_light = to_light / np.linalg.norm(to_light, axis=0)
+    unclear = np.any([np.abs(np.sum(normal * d, axis=0)) < 16 * EPS for d in (view, to_light)], axis=0)
+    share = np.abs(got - value)[:, ~unclear] / allowed[:, ~unclear]
+    record_property("share_of_the_bound", float(share.max()))
+    assert (value > 0).mean() > (0.1 if index == 1 else 0.4)
+    assert unclear.mean() < 1e-3
+    assert share.max() <= 1
+    # The bound is itself small: in the mean it would hide no convention mistake.
+    assert allowed.mean() < 2e-3 * value.mean()
+    error = np.abs(got - value).mean() / value.mean()
+    record_property("mean_error", float(error))
+    assert error < 2e-5
+
+
+def test_a_cone_a_thousandth_narrower_would_be_noticed(grid):
+    """The bound is tight enough to tell."""
+    scene, _, seen = grid
+    light = scene.lights[1]
+    inputs = inputs_of(seen.points, light)
+    value = exact_direct(light, *inputs)
+    allowed = bound(light, inputs, value)
+    narrower = SpotLight(light.name, light.position, light.direction, light.intensity, light.inner, light.outer * 0.999)
+    assert (np.abs(exact_direct(narrower, *inputs) - value) > allowed).mean() > 0.01
+
+
+@pytest.mark.parametrize("name", ["metal-rough-grid", "posts", "cornell-box", "torus", "control"])
+def test_captured_terms_compose_to_the_frame(device, name):
+    """The frame adds one product per step in float32: n additions and products, each half an ulp of the running sum."""
+    maker = renderer(device, load(name), (64, 64))
+    frame, seen = maker.render(), maker.capture()
+    total = seen.points.emission.astype(np.float64)
+    for light, direct in seen.direct.items():
+        total += direct.astype(np.float64) * seen.visibility.get(light, 1.0)
+    total += seen.frame.get("environment", 0.0) * np.asarray(seen.frame.get("environment_visibility", 1.0), np.float64)
+    total += seen.frame.get("indirect", 0.0)
+    steps = len(seen.direct) * 2 + 3
+    assert np.isfinite(frame.radiance).all()
+    assert np.abs(frame.radiance - total).max() <= steps * EPS * np.abs(total).max()
+    assert (np.abs(frame.radiance - total) <= steps * EPS * np.abs(total) + 1e-12).all()
+
+
+@pytest.mark.parametrize("choice", [Choice(), Choice(use=("gamma_22",)), Choice(without=("narkowicz",))])
+def test_the_display_transform_is_the_device_s_to_eight_bit_rounding(device, choice):
+    """Half a code for rounding, and what float32's pow may move it by: below 0.01 of a code."""
+    maker = renderer(device, load("posts"), (96, 96), choice)
+    frame = maker.render()
+    codes = display_transform(maker.plan)(frame.radiance.astype(np.float64)) * 255
+    assert np.abs(frame.display - codes).max() <= 0.5 + 0.01
+    assert np.ptp(frame.display) > 100
+
+
+def test_supersampling_is_the_mean_of_its_offsets(device):
+    """n × n samples: the mean of the frames that single offsets give, to n² roundings."""
+    maker = renderer(device, load("torus"), (48, 48), Choice(settings={"supersampling": {"grid": 2}}))
+    whole = maker.render().radiance.astype(np.float64)
+    single = renderer(device, load("torus"), (48, 48))
+    total = np.zeros_like(whole)
+    for offset in maker.offsets:
+        seen = single.capture(tuple(offset))
+        total += seen.points.emission
+        for light, direct in seen.direct.items():
+            total += direct.astype(np.float64) * seen.visibility.get(light, 1.0)
+        for term in ("environment", "indirect"):
+            total += seen.frame.get(term, 0.0)
+    assert len(maker.offsets) == 4
+    assert np.abs(whole - total / 4).max() < 16 * EPS * total.max()
