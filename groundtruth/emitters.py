@@ -55,7 +55,8 @@ def _rgb(color) -> dict:
 
 
 def _opaque(kind, *values):
-    array = kind(*values)
+    number = int if kind is mi.UInt32 else float
+    array = kind(*map(number, values)) if len(values) > 1 else kind([number(values[0])])
     dr.make_opaque(array)
     return array
 
@@ -129,7 +130,7 @@ class SurfaceEmitter(mi.Emitter):
         total = areas.sum()
         self.inverse_area = _opaque(mi.Float, 1 / total if total > 0 else 0.0)
         below = np.concatenate([[0.0], np.cumsum(areas) / (total if total > 0 else 1)])
-        self.below = mi.Float(below)
+        self.below = mi.Float(below.astype(np.float32))
         dr.make_opaque(self.below)
         self.steps = max(1, math.ceil(math.log2(len(areas) + 1)))
         self.m_flags = mi.EmitterFlags.Surface | mi.EmitterFlags.SpatiallyVarying

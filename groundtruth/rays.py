@@ -7,21 +7,21 @@ from lightmeter.groundtruth.world import World
 _MASK_SLOTS = frozenset({"base_color", "color"})
 
 
-@dr.syntax
-def _through_holes(world, scene, ray, active):
+def _through_holes(world: World, scene, ray, active):
     """The first hit that is there, or an invalid one."""
     slots = world.slots & _MASK_SLOTS
-    ray = mi.Ray3f(ray)
-    si = dr.zeros(mi.SurfaceInteraction3f, dr.width(ray))
-    going = mi.Bool(active)
-    while going:
+
+    def step(si, ray, going):
         si = scene.ray_intersect(ray, ray_flags=+mi.RayFlags.All, coherent=False, active=going)
         going &= si.is_valid()
         going &= ~surface.at_hit(world.tables, si, slots, going).present
-        left = ray.maxt - si.t
-        ray = si.spawn_ray(ray.d)
-        ray.maxt = left
-    return si
+        onwards = si.spawn_ray(ray.d)
+        onwards.maxt = ray.maxt - si.t
+        return si, dr.select(going, onwards, ray), going
+
+    nothing = dr.zeros(mi.SurfaceInteraction3f, dr.width(ray))
+    state = (nothing, mi.Ray3f(ray), mi.Bool(active) & dr.full(mi.Bool, True, dr.width(ray)))
+    return dr.while_loop(state, lambda si, ray, going: going, step, label="through holes")[0]
 
 
 def first_hit(world: World, ray, active, scene=None):

@@ -42,10 +42,10 @@ def evaluate(image: np.ndarray) -> np.ndarray:
 @cache
 def _processor():
     """OpenColorIO's transform, without optimisations that trade exactness for speed."""
-    import PyOpenColorIO as ocio
+    import PyOpenColorIO
 
-    config = ocio.Config.CreateFromBuiltinConfig(CONFIG)
-    view = ocio.DisplayViewTransform(src=SOURCE, display=DISPLAY, view=VIEW)
-    decode = ocio.ExponentWithLinearTransform(gamma=[2.4, 2.4, 2.4, 1.0], offset=[0.055, 0.055, 0.055, 0.0])
-    chain = ocio.GroupTransform([view, decode])
-    return config.getProcessor(chain).getOptimizedCPUProcessor(ocio.OPTIMIZATION_LOSSLESS)
+    config = PyOpenColorIO.Config.CreateFromBuiltinConfig(CONFIG)
+    view = PyOpenColorIO.DisplayViewTransform(src=SOURCE, display=DISPLAY, view=VIEW)
+    decode = PyOpenColorIO.ExponentWithLinearTransform(gamma=[2.4, 2.4, 2.4, 1.0], offset=[0.055, 0.055, 0.055, 0.0])
+    chain = PyOpenColorIO.GroupTransform([view, decode])
+    return config.getProcessor(chain).getOptimizedCPUProcessor(PyOpenColorIO.OPTIMIZATION_LOSSLESS)
