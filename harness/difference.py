@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from lightmeter.device import fingerprint
 from lightmeter.failures import UsageError
 from lightmeter.image_pair import ImagePair
@@ -57,12 +59,19 @@ def difference(
 
 
 def picture(images: ImagePair, pixels_per_degree: float = PIXELS_PER_DEGREE) -> Pair:
-    """The pair with its error maps: FLIP of the display values, RMS and signed error."""
+    """The pair with its error maps: FLIP of the display values, RMS and signed error.
+
+    FLIP's filters would carry a pixel that is not finite all over the map: there it is drawn without such pixels, and
+    they are marked.
+    """
     is_display = images.space == "display"
     tested = images.tested_shown if is_display else images.tested
     truth = images.reference_shown if is_display else images.reference
+    bad = ~np.isfinite(images.tested_shown).all(axis=2)
+    sound = np.where(bad[..., None], images.reference_shown, images.tested_shown)
+    flip = np.where(bad, np.nan, ldr_flip(sound, images.reference_shown, pixels_per_degree))
     errors = (
-        flip_error(ldr_flip(images.tested_shown, images.reference_shown, pixels_per_degree)),
+        flip_error(flip),
         rms_error(tested, truth),
         signed_error(tested, truth),
     )

@@ -14,6 +14,7 @@ from lightmeter.failures import UsageError
 DEFAULT_SIZE = "512x512"
 DEFAULT_SPP = 64
 MIN_BATCHES = 8
+MAX_SPP = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -121,9 +122,9 @@ def budget(args: argparse.Namespace) -> Budget:
     """
     if args.spp is not None and args.seconds is not None:
         raise UsageError("--spp and --seconds: give one of them")
-    if args.spp is not None and not MIN_BATCHES <= args.spp <= 1 << 20:
+    if args.spp is not None and not MIN_BATCHES <= args.spp <= MAX_SPP:
         raise UsageError(
-            f"--spp: expected {MIN_BATCHES} to {1 << 20}, got {args.spp}; every interval needs {MIN_BATCHES} batches"
+            f"--spp: expected {MIN_BATCHES} to {MAX_SPP}, got {args.spp}; every interval needs {MIN_BATCHES} batches"
         )
     if args.seconds is not None and not 0 < args.seconds <= 1e6:
         raise UsageError(f"--seconds: expected a time above 0 and up to 1e6, got {args.seconds}")
