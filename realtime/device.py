@@ -10,9 +10,10 @@ from .shaders import Source, explain
 
 FULLSCREEN = """#version 410
 void main() {
-    // One triangle that covers the screen: (−1, −1), (3, −1), (−1, 3).
+    // One triangle that covers the screen, (−1, −1), (3, −1), (−1, 3), at the greatest depth there is: a depth test
+    // tells surfaces from what lies behind them all.
     vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(corner * 2.0 - 1.0, 1.0, 1.0);
 }
 """
 
@@ -101,20 +102,3 @@ class Device:
         width, height = texture.size
         data = np.frombuffer(texture.read(alignment=1), dtype=dtype)
         return data.reshape(height, width, texture.components)[::-1]
-
-
-def set_uniforms(program, values: dict[str, Any]) -> None:
-    """Set those uniforms that the program really uses.
-
-    Matrices are (4, 4), or (n, 4, 4) for an array of them, as they are written on paper: column vectors.
-    """
-    for name, value in values.items():
-        if name not in program:
-            continue
-        array = np.asarray(value)
-        if array.shape[-2:] == (4, 4):
-            program[name].write(np.ascontiguousarray(array.swapaxes(-1, -2), dtype=np.float32).tobytes())
-        elif array.ndim == 1:
-            program[name].value = tuple(float(x) for x in array)
-        else:
-            program[name].value = value if isinstance(value, (int, bool)) else float(value)

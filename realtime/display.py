@@ -5,11 +5,11 @@ from importlib import import_module
 
 import numpy as np
 
-from .device import Device, set_uniforms
+from .device import Device
 from .effect import Effect, Knobs
 from .graph import Plan
 from .shaders import Source, source
-from .shading import bind
+from .uniforms import bind, set_uniforms
 
 DISPLAY_TERMS = ("tone", "encode")
 
@@ -28,8 +28,7 @@ class DisplayPass:
         """Draw `image`, a texture, times `scale` into the framebuffer `target`."""
         target.use()
         self._device.gl.enable_only(self._device.gl.NOTHING)
-        numbers = {name: value for name, value in self._knobs.items() if not isinstance(value, str)}
-        set_uniforms(self._program, {**numbers, "exposure_scale": scale})
+        set_uniforms(self._program, {**self._knobs, "exposure_scale": scale})
         bind(self._program, {"image": image})
         self._device.draw(self._vertices, 3)
 

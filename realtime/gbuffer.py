@@ -5,12 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.model import Material, Scene, Texture
+from lightmeter.scenes.model import Material, Scene, Texture, Vector
 
-from .device import Device, set_uniforms
+from .background import Background
+from .device import Device
 from .geometry import Batch, Geometry
-from .projection import projection_matrix, view_matrix, viewer
+from .projection import projection_matrix, view_matrix
 from .shaders import Source, source
+from .uniforms import Uniforms, bind, set_uniforms
 
 CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion")
 """What effects may read. A channel that is the same everywhere costs no attachment."""
@@ -32,20 +34,48 @@ ATTACHMENTS = (
     Attachment("base_color_metallic", ("base_color", "metallic"), "vec4(base_color.rgb, metallic)"),
     Attachment("specular_occlusion", ("specular", "occlusion"), "vec2(specular_factor, occlusion)", 2),
 )
+PARTS: dict[str, tuple[str, slice | int]] = {
+    "position": ("position", slice(3)),
+    "normal": ("normal_roughness", slice(3)),
+    "roughness": ("normal_roughness", 3),
+    "base_color": ("base_color_metallic", slice(3)),
+    "metallic": ("base_color_metallic", 3),
+    "specular": ("specular_occlusion", 0),
+    "occlusion": ("specular_occlusion", 1),
+}
+"""Where in the attachments each channel lies."""
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
 # Whole numbers that float32 holds exactly: the triangle's number in two halves of 12 bits and more.
 IDENTITY = Attachment("identity", (), "vec4(shape, gl_PrimitiveID & 4095, gl_PrimitiveID >> 12, 0.0)")
 
 
-def constant_channels(scene: Scene) -> dict[str, float]:
+def constant_channels(scene: Scene) -> dict[str, float | Vector]:
     """The channels that hold one value all over the scene, with that value."""
-    constants = {}
-    speculars = {shape.material.specular for shape in scene.shapes}
-    if len(speculars) <= 1:
-        constants["specular"] = speculars.pop() if speculars else 1.0
-    if not any(shape.material.occlusion_texture for shape in scene.shapes):
-        constants["occlusion"] = 1.0
+    materials = [shape.material for shape in scene.shapes] or [Material()]
+    slots = {slot for material in materials for slot in material.textures}
+    varying = {
+        "base_color": "base_color" in slots or any(shape.mesh.colors is not None for shape in scene.shapes),
+        "metallic": "metallic_roughness" in slots,
+        "roughness": "metallic_roughness" in slots,
+        "specular": False,
+    }
+    constants: dict[str, float | Vector] = {} if "occlusion" in slots else {"occlusion": 1.0}
+    for name, varies in varying.items():
+        values = {getattr(material, name) for material in materials}
+        if len(values) == 1 and not varies:
+            constants[name] = values.pop()
     return constants
+
+
+@dataclass(frozen=True, eq=False)
+class Draw:
+    """One shape, ready to be drawn into the G-buffer."""
+
+    program: Any
+    vertices: Any
+    count: int
+    uniforms: Uniforms
+    textures: dict[str, Any]
 
 
 class GBuffer:
@@ -53,7 +83,7 @@ class GBuffer:
 
     Args:
         channels: those that are read; the rest is left out.
-        radiance: the texture that emission goes to, or None where nothing emits.
+        radiance: the texture that emission and the environment behind everything go to.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
     """
 
@@ -64,7 +94,7 @@ class GBuffer:
         scene: Scene,
         size: tuple[int, int],
         channels: frozenset[str],
-        radiance=None,
+        radiance: Any,
         identity: bool = False,
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
@@ -72,7 +102,9 @@ class GBuffer:
         varying = channels - set(self.constants)
         attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
         self.textures = {a.name: device.target(size, a.components) for a in attachments}
-        if radiance is not None:
+        self.radiance = radiance
+        emits = bool(scene.area_lights)
+        if emits:
             attachments.append(EMISSION)
             self.textures["radiance"] = radiance
         if identity:
@@ -82,9 +114,10 @@ class GBuffer:
         device.counts["textures"] += 1
         self.depth = device.gl.depth_renderbuffer(size)
         self._framebuffer = device.framebuffer(self.textures.values(), self.depth)
-        # The background is cleared by itself: one clear colour holds for all attachments of a framebuffer.
-        self._emission = None if radiance is None else device.framebuffer([radiance])
-        self._background = (*(scene.environment.radiance if scene.environment else (0.0, 0.0, 0.0)), 0.0)
+        # Where nothing emits, no shape writes radiance: it is cleared by itself.
+        self._cleared = None if emits else device.framebuffer([radiance])
+        surrounded = scene.environment is not None and max(scene.environment.radiance) > 0
+        self._background = Background(device, scene, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
 
@@ -98,24 +131,40 @@ class GBuffer:
         gl, camera = self._device.gl, self._scene.camera
         self._framebuffer.use()
         self._framebuffer.clear()
-        if self._emission is not None:
-            self._emission.clear(*self._background)
+        if self._cleared is not None:
+            self._cleared.clear()
             self._framebuffer.use()
         gl.enable_only(gl.DEPTH_TEST)
         matrix = projection_matrix(camera, self._size, offset) @ view_matrix(camera)
         for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix, "viewer": viewer(camera)})
-        for batch, program, vertices in self._draws:
-            set_uniforms(program, material_uniforms(batch.material) | {"shape": batch.shape})
-            for unit, (slot, texture) in enumerate(batch.material.textures.items()):
-                if f"{slot}_texture" in program:
-                    self._geometry.texture(texture).use(unit)
-                    program[f"{slot}_texture"].value = unit
-            self._device.draw(vertices, batch.count)
+            set_uniforms(program, {"view_projection": matrix})
+        for draw in self._draws:
+            draw.uniforms.write()
+            bind(draw.program, draw.textures)
+            self._device.draw(draw.vertices, draw.count)
+        if self._background is not None:
+            self._background.draw()
 
-    def _prepare(self, batch: Batch):
+    def channel(self, name: str) -> np.ndarray:
+        """A channel's values, (H, W) or (H, W, 3) float32, row 0 at the top."""
+        if name in self.constants:
+            value = np.float32(self.constants[name])
+            width, height = self._size
+            return np.broadcast_to(value, (height, width, *value.shape)).copy()
+        attachment, part = PARTS[name]
+        return self._device.read(self.textures[attachment])[..., part].copy()
+
+    def _prepare(self, batch: Batch) -> "Draw":
         program = self._program(batch)
-        return batch, program, batch.vertices(self._device, program)
+        values = material_uniforms(batch.material) | {"shape": batch.shape}
+        textures = {f"{slot}_texture": texture for slot, texture in batch.material.textures.items()}
+        return Draw(
+            program,
+            batch.vertices(self._device, program),
+            batch.count,
+            Uniforms(program, values),
+            {name: self._geometry.texture(texture) for name, texture in textures.items() if name in program},
+        )
 
     def _program(self, batch: Batch):
         material = batch.material

@@ -82,7 +82,7 @@ class Renderer:
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
-        gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._emission_target())
+        gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance)
         self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size)
         self._passes = self._make_passes(self._stage, separate=False)
         self._visibility = {
@@ -106,11 +106,6 @@ class Renderer:
         self._coverage = coverage or ""
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
-    def _emission_target(self):
-        """The radiance, where anything emits or surrounds the scene; emission costs nothing elsewhere."""
-        scene = self.plan.scene
-        return self._radiance if scene.area_lights or scene.environment else None
-
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
         names = {step.effect for step in self.plan.steps if step.writes[0] not in DISPLAY_TERMS}
         return {name: ShadingPass(stage, *self.plan.effects[name], separate) for name in names}
@@ -122,12 +117,9 @@ class Renderer:
     def _scene_actions(self, offset: tuple[float, float]) -> list[tuple[str, str, Callable[[], None]]]:
         """(pass, effect, draw) of one sample of the frame, up to its radiance."""
 
-        def gbuffer() -> None:
-            if self._emission_target() is None:
-                self._radiance_buffer.clear()
-            self._stage.gbuffer.draw(offset)
-
-        actions = [("gbuffer", "", gbuffer)]
+        actions: list[tuple[str, str, Callable[[], None]]] = [
+            ("gbuffer", "", lambda: self._stage.gbuffer.draw(offset)),
+        ]
         for step in self.plan.steps:
             if step.writes[0] not in DISPLAY_TERMS:
                 actions += self._step_actions(step)
@@ -210,9 +202,9 @@ class Renderer:
 
     def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
         """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
-        gbuffer, radiance, passes = self._capture_stage
+        gbuffer, passes = self._capture_stage
         gbuffer.draw(offset)
-        points = self._points(gbuffer, radiance)
+        points = self._points(gbuffer)
         direct, visibility, frame = {}, {}, {}
         for step in self.plan.steps if terms else ():
             if step.writes[0] in DISPLAY_TERMS:
@@ -239,7 +231,7 @@ class Renderer:
                 self.device, self._geometry, self.plan.scene, self.size, channels, radiance, identity=True
             )
             stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size)
-            self._captured = gbuffer, radiance, self._make_passes(stage, separate=True)
+            self._captured = gbuffer, self._make_passes(stage, separate=True)
         return self._captured
 
     def _separate(self, shading: ShadingPass, step: Step) -> dict[str, np.ndarray]:
@@ -254,28 +246,17 @@ class Renderer:
             term: self.device.read(texture)[..., :3].copy() for term, texture in zip(step.writes, textures, strict=True)
         }
 
-    def _points(self, gbuffer: GBuffer, radiance) -> SurfacePoints:
-        read = {name: self.device.read(texture) for name, texture in gbuffer.textures.items()}
-        position = read["position"][..., :3].copy()
-        hit = read["position"][..., 3] > 0
-        identity = read["identity"].astype(np.int32)
-        constants = {name: np.full(hit.shape, value, np.float32) for name, value in gbuffer.constants.items()}
-        pair = read.get("specular_occlusion")
-        specular = constants.get("specular", None if pair is None else pair[..., 0])
-        occlusion = constants.get("occlusion", None if pair is None else pair[..., 1])
+    def _points(self, gbuffer: GBuffer) -> SurfacePoints:
+        position = gbuffer.channel("position")
+        hit = self.device.read(gbuffer.textures["position"])[..., 3] > 0
+        identity = self.device.read(gbuffer.textures["identity"]).astype(np.int32)
         eye = viewer(self.plan.scene.camera)
         view = (eye[:3] - eye[3] * position.astype(np.float64)).astype(np.float64)
         view /= np.maximum(np.linalg.norm(view, axis=-1, keepdims=True), 1e-300)
         return SurfacePoints(
-            position=position,
-            normal=read["normal_roughness"][..., :3].copy(),
+            **{name: gbuffer.channel(name) for name in CHANNELS},
             view=np.broadcast_to(view, position.shape).astype(np.float32),
-            base_color=read["base_color_metallic"][..., :3].copy(),
-            metallic=read["base_color_metallic"][..., 3].copy(),
-            roughness=read["normal_roughness"][..., 3].copy(),
-            specular=np.ascontiguousarray(specular),
-            occlusion=np.ascontiguousarray(occlusion),
-            emission=read["radiance"][..., :3].copy(),
+            emission=self.device.read(gbuffer.radiance)[..., :3].copy(),
             shape=np.where(hit, identity[..., 0], -1).astype(np.int32),
             triangle=np.where(hit, identity[..., 1] + 4096 * identity[..., 2], -1).astype(np.int32),
         )

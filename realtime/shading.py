@@ -3,12 +3,12 @@
 from importlib import import_module
 from typing import Any
 
-from .device import set_uniforms
 from .effect import Effect, Knobs
 from .graph import FACTORS, Step
 from .projection import viewer
 from .shaders import Source, source
 from .stage import Stage
+from .uniforms import Uniforms, bind
 
 VISIBILITIES = tuple(FACTORS.values())
 
@@ -24,6 +24,7 @@ class ShadingPass:
     def __init__(self, stage: Stage, effect: Effect, knobs: Knobs, separate: bool = False) -> None:
         self._stage, self._effect, self._knobs, self._separate = stage, effect, knobs, separate
         self._programs: dict[tuple, Any] = {}
+        self._uniforms: dict[Step, Uniforms] = {}
         self.own: Any = None
         if (effect.folder / "passes.py").is_file():
             module = import_module(f"{__package__}.effects.{effect.name}.passes")
@@ -35,7 +36,7 @@ class ShadingPass:
         Args:
             buffers: the visibilities that the step reads, by term.
         """
-        device, scene = self._stage.device, self._stage.scene
+        device = self._stage.device
         program, vertices = self._program(step)
         target.use()
         if step.writes[0] in VISIBILITIES or self._separate:
@@ -43,18 +44,24 @@ class ShadingPass:
         else:
             device.gl.enable_only(device.gl.BLEND)
             device.gl.blend_func = device.gl.ONE, device.gl.ONE
-        light = None if step.light is None else scene.all_lights[step.light]
-        uniforms = dict(self._knobs) | self._effect.uniforms(scene, self._knobs, light)
-        uniforms["viewer"] = viewer(scene.camera)
+        if step not in self._uniforms:
+            self._uniforms[step] = Uniforms(program, self._values(step))
+        self._uniforms[step].write()
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
         if self.own is not None and step.light is not None:
-            own_uniforms, own_textures = self.own.bindings(step.light)
-            uniforms |= own_uniforms
-            textures |= own_textures
-        set_uniforms(program, {k: v for k, v in uniforms.items() if not isinstance(v, str)})
+            textures |= self.own.textures(step.light)
         bind(program, textures)
         device.draw(vertices, 3)
+
+    def _values(self, step: Step) -> dict[str, Any]:
+        """What the step's shader is told; nothing of it changes from frame to frame."""
+        scene = self._stage.scene
+        light = None if step.light is None else scene.all_lights[step.light]
+        values = dict(self._knobs) | self._effect.uniforms(scene, self._knobs, light)
+        if self.own is not None and step.light is not None:
+            values |= self.own.uniforms(step.light)
+        return values | {"viewer": viewer(scene.camera)}
 
     def _program(self, step: Step):
         own = self.own.defines(step.light) if self.own is not None and step.light is not None else {}
@@ -83,11 +90,3 @@ class ShadingPass:
             lines.append(f"    sum += {term}(surface){scale};")
         lines.append("    out_radiance = vec4(sum, 0.0);")
         return "out vec4 out_radiance;", "\n".join(lines)
-
-
-def bind(program, textures: dict[str, Any]) -> None:
-    """Bind those textures that the program samples."""
-    used = [(name, texture) for name, texture in textures.items() if name in program]
-    for unit, (name, texture) in enumerate(used):
-        texture.use(unit)
-        program[name].value = unit

@@ -45,6 +45,15 @@ bool load_surface(ivec2 pixel, out Surface surface) {
     surface.specular = specular_occlusion.r;
     surface.occlusion = specular_occlusion.g;
 #endif
+#ifdef CONSTANT_BASE_COLOR
+    surface.base_color = CONSTANT_BASE_COLOR;
+#endif
+#ifdef CONSTANT_METALLIC
+    surface.metallic = CONSTANT_METALLIC;
+#endif
+#ifdef CONSTANT_ROUGHNESS
+    surface.roughness = CONSTANT_ROUGHNESS;
+#endif
 #ifdef CONSTANT_SPECULAR
     surface.specular = CONSTANT_SPECULAR;
 #endif

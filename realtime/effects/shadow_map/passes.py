@@ -2,13 +2,12 @@
 
 from typing import Any
 
-from ...device import set_uniforms
 from ...effect import Knobs
 from ...gbuffer import material_uniforms, texture_declaration, usable_slots
 from ...geometry import Batch
 from ...shaders import Source, source
-from ...shading import bind
 from ...stage import Stage
+from ...uniforms import bind, set_uniforms
 from .views import ShadowViews, shadow_views
 
 DEPTH_ONLY = "void main() {}\n"
@@ -55,15 +54,14 @@ class Passes:
             framebuffer.viewport = (face % 3 * side, face // 3 * side, side, side)
             self._draw_shapes(matrix, views.excluded)
 
-    def bindings(self, light: int) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Uniforms and textures of the comparison."""
+    def uniforms(self, light: int) -> dict[str, Any]:
+        """What the comparison is told of the light's views."""
         views = self.views(light)
-        uniforms = {
-            "shadow_matrices": views.matrices,
-            "shadow_light": views.position,
-            "shadow_texel": views.texel,
-        }
-        return uniforms, {"shadow_map": self._map(views.is_cube)[1]}
+        return {"shadow_matrices": views.matrices, "shadow_light": views.position, "shadow_texel": views.texel}
+
+    def textures(self, light: int) -> dict[str, Any]:
+        """What the comparison reads."""
+        return {"shadow_map": self._map(self.views(light).is_cube)[1]}
 
     def _map(self, is_cube: bool):
         if is_cube not in self._maps:
