@@ -257,16 +257,19 @@ def _display_sides(plan: Plan, reference: list[np.ndarray]) -> dict[str, Sides]:
     return found
 
 
-def closure_batches(renderer: Renderer, truth: Truth, report: Report = silent, emission_samples: int = 1) -> np.ndarray:
+def closure_batches(
+    renderer: Renderer, truth: Truth, report: Report = silent, samples: int = MOST_SAMPLES, emission_samples: int = 1
+) -> np.ndarray:
     """(K, H, W, 3) float32: images with every term exact, each at sub-pixel offsets of its own.
 
     Args:
+        samples: sub-pixel offsets per batch, at most.
         emission_samples: G-buffers that emission is averaged over, for every one that the oracles see. Emission
             needs no oracle, and the edge of a bright lamp holds most of what sub-pixel offsets leave uncertain.
     """
     from lightmeter.groundtruth.oracles import coverage
 
-    count, samples = truth.batches, min(truth.reference.spp, MOST_SAMPLES)
+    count, samples = truth.batches, min(truth.reference.spp, samples)
     # The centre's points stand for the rasteriser: another one, or other shaders, and nothing stale is recalled.
     series = Series.of(
         "closure",

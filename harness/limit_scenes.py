@@ -53,7 +53,7 @@ def _files(pattern: str, folder: Path, file: Path) -> list[str]:
 
 def _neighbours(pattern: str, folder: Path, file: Path) -> list[Path]:
     """Scene files beside what the pattern speaks of, for a hint."""
-    beside = folder / Path(re.split(r"[*?\[]", pattern)[0] or ".").parent
+    beside = folder / re.split(r"[*?\[]", pattern)[0].rpartition("/")[0]
     found = [p for where in {folder, beside} if where.is_dir() for p in where.iterdir() if p.suffix in SUFFIXES]
     return [path for path in found if not _same(path, file)][:200]
 

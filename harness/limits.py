@@ -38,7 +38,7 @@ Bound = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 
 
 def _size(text: str) -> str:
-    options.size(text, "this size")
+    options.size(text, "a size")
     return text
 
 
@@ -84,7 +84,7 @@ class LimitsFile(Strict):
     """The whole of lightmeter.toml."""
 
     defaults: Setting = Setting()
-    limit: tuple[LimitEntry, ...] = Field(min_length=1)
+    limit: tuple[LimitEntry, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -138,6 +138,10 @@ def read_limits(path: Path) -> list[Limit]:
         SceneError, UsageError: it is missing, no TOML, or does not follow the schema; the message names the place.
     """
     file = _parse(read_bytes(path, LARGEST), str(path))
+    if not file.limit:
+        raise UsageError(
+            f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max or min"
+        )
     return [_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit)]
 
 

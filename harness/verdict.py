@@ -36,11 +36,11 @@ def explain_verdict(limit: Limit, measurement: Measurement, status: Status) -> s
         "FAIL": "is beyond",
         "UNDECIDED": "may lie on either side of",
     }[status]
-    shown = show_number(measurement.value)
+    shown = show_number(measurement.value, 5)
     if measurement.low is not None and measurement.high is not None:
-        shown += f" ({show_number(measurement.low)} … {show_number(measurement.high)})"
+        shown += f" ({show_number(measurement.low, 5)} … {show_number(measurement.high, 5)})"
     if measurement.corrected is not None:
-        shown += f" (corrected for noise: {show_number(measurement.corrected)})"
+        shown += f" (corrected for noise: {show_number(measurement.corrected, 5)})"
     return f"{limit.metric} of {limit.of} = {shown} {reason} the limit {limit.words}"
 
 

@@ -117,9 +117,12 @@ def _print_verdicts(verdicts) -> None:
     table.add_column("limit", no_wrap=True)
     table.add_column("measured", overflow="fold")
     for verdict in verdicts:
-        shown = show_measurement(verdict.measurement)
-        if verdict.measurement.corrected is not None:
-            shown += f" (corrected {show_number(verdict.measurement.corrected)})"
+        measurement = verdict.measurement
+        shown = show_measurement(measurement)
+        if measurement.low is None:  # the value as exactly as a limit may be written
+            shown = f"{show_number(measurement.value, 5)} {measurement.unit}".strip()
+        if measurement.corrected is not None:
+            shown += f" (corrected {show_number(measurement.corrected, 5)})"
         table.add_row(
             Text(verdict.status, style=styles[verdict.status]),
             Text(verdict.name.rpartition("/")[0]),

@@ -1,0 +1,53 @@
+"""Closure: with every term exact, the composition at the G-buffer's points is the path traced image.
+
+The interval of the bias must contain 0 and be narrow: a wide one proves nothing. The budgets below buy half-widths
+under 5e-4 of the mean; `benchmarks/closure.py` buys 1e-4 and takes correspondingly longer. A right program misses 0
+in one of twenty runs by the meaning of a 95 % interval: seeds are fixed, so that it is decided once.
+"""
+
+import numpy as np
+import pytest
+
+from lightmeter.comparison import closure_batches
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.registry import measure
+from lightmeter.options import Budget
+from lightmeter.realtime.device import Device
+from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.graph import compile_plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.scenes.load import load
+from lightmeter.truth import Truth
+
+HALF_WIDTH = 5e-4
+
+BUDGETS = {  # side of the image, samples per pixel, sub-pixel offsets per batch, and for emission a multiple of them
+    "control": (64, 256, 32, 1),
+    "metal-rough-grid": (128, 512, 64, 1),
+    "torus": (64, 4096, 128, 2),
+    "cornell-box": (64, 8192, 128, 8),
+}
+
+
+def closure(name: str, size: int, spp: int, samples: int, emission_samples: int, seed: int = 0):
+    """Composition and reference, K batches each."""
+    scene = load(name)
+    truth = Truth(scene, (size, size), Budget(spp), seed)
+    renderer = Renderer(Device(), compile_plan(scene, effects()), (size, size))
+    images = closure_batches(renderer, truth, samples=samples, emission_samples=emission_samples)
+    return images, truth.reference.batches
+
+
+@pytest.mark.parametrize("name", BUDGETS)
+def test_every_term_exact_gives_the_reference(name):
+    images, batches = closure(name, *BUDGETS[name])
+    bias = measure("relative_bias", images, batches)
+    assert (bias.high - bias.low) / 2 <= HALF_WIDTH
+    assert bias.low <= 0 <= bias.high
+
+
+def test_a_bias_is_seen():
+    """A composition that is 0.2 % too bright does not close: the interval is narrow enough to tell."""
+    images, batches = closure("control", *BUDGETS["control"])
+    bias = Comparison(images * np.float32(1.002), batches)
+    assert measure("relative_bias", bias.tested_batches, bias.reference).low > 0
