@@ -75,5 +75,8 @@ def print_outcome(outcome: Outcome, report: Path, json: bool) -> None:
 
     from lightmeter.reports.terminal import comparison
 
-    Console().print(comparison(outcome.results))
+    console = Console()
+    if not console.is_terminal:  # a log has no width of its own
+        console = Console(width=120)
+    console.print(comparison(outcome.results))
     print(f"report: {report}")

@@ -6,6 +6,7 @@ Names come from scene files and drivers, so every cell is plain `Text`: nothing 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-_COLUMNS = ("flip", "flip_hdr", "ssim")
+_COLUMNS = ("flip", "ssim")
 _STYLES = {"meets": "green", "wide": "yellow", "unknown": "yellow", "differs": "bold red"}
 
 
@@ -51,21 +52,23 @@ def comparison_table(results: Results) -> Table:
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     names = [name for metrics in _all_metrics(results) for name in metrics]
     columns = present(_COLUMNS, names)
-    table.add_column("effect", overflow="fold")
-    table.add_column("term", overflow="fold")
-    table.add_column("RMSE", justify="right")
+    table.add_column("effect", no_wrap=True)
+    table.add_column("term", no_wrap=True)
+    table.add_column("RMSE", justify="right", no_wrap=True)
     for name in columns:
-        table.add_column(label(name), justify="right")
-    table.add_column("ms", justify="right")
+        table.add_column(label(name), justify="right", no_wrap=True)
+    table.add_column("ms", justify="right", no_wrap=True)
     for effect in results.effects:
         cells = [_number(effect.metrics.get(name)) for name in columns]
-        terms = Text(", ".join(effect.terms))
-        table.add_row(Text(effect.effect), terms, _full(effect.metrics.get("rmse")), *cells, _time(effect.time_ms))
+        terms = Text("\n".join(effect.terms))
+        table.add_row(Text(effect.effect), terms, _bare(effect.metrics.get("rmse")), *cells, _time(effect.time_ms))
     if results.effects:
         table.add_section()
     frame = results.frame.metrics
     cells = [_number(frame.get(name)) for name in columns]
-    table.add_row(Text("frame", style="bold"), Text(), _full(frame.get("rmse")), *cells, _time(results.frame.time_ms))
+    table.add_row(Text("frame", style="bold"), Text(), _bare(frame.get("rmse")), *cells, _time(results.frame.time_ms))
+    unit = next((m["rmse"].unit for m in _all_metrics(results) if "rmse" in m and m["rmse"].unit), "")
+    table.caption = Text(f"RMSE in {unit}, of code values 0…1 for tone and encode" if unit else "", justify="left")
     return table
 
 
@@ -107,6 +110,11 @@ def _full(measurement: Measurement | None) -> Text:
     if not math.isfinite(measurement.value):
         return Text(f"✕ {show_measurement(measurement)}", style="bold red")
     return Text(show_measurement(measurement))
+
+
+def _bare(measurement: Measurement | None) -> Text:
+    """The same without its unit, which the caption names."""
+    return _full(None if measurement is None else replace(measurement, unit=""))
 
 
 def _number(measurement: Measurement | None) -> Text:

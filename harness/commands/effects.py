@@ -49,10 +49,8 @@ def _list(effects) -> None:
     table.add_column("effect", style="bold", no_wrap=True)
     table.add_column("terms", no_wrap=True)
     table.add_column("what it does")
-    table.add_column("knobs")
     for effect in effects:
-        knobs = ", ".join(knob.name for knob in effect.knobs)
-        table.add_row(effect.name, "\n".join(effect.terms), effect.summary, knobs)
+        table.add_row(effect.name, "\n".join(effect.terms), effect.summary)
     Console().print(table)
 
 

@@ -68,7 +68,8 @@ def test_terminal_says_everything_that_matters() -> None:
     text = printed(comparison(make_results(broken=True)))
     for part in (
         "shadow_map",
-        "0.0523 ± 0.0031 W/sr/m²",
+        "0.0523 ± 0.0031",
+        "RMSE in W/sr/m²",
         "3.41 ± 0.12",
         "✕ NaN",
         "pixels that are not finite: frame 2 at (32, 24)",
