@@ -137,13 +137,7 @@ class Renderer:
             actions.append((f"{name} · map", step.effect, lambda: own.draw(light)))
         term = step.writes[0]
         target = self._buffers.get(term, self._radiance_buffer)
-
-        def draw() -> None:
-            if term in self._buffers:
-                target.clear(1.0, 1.0, 1.0, 1.0)
-            shading.draw(step, target, self._visibility)
-
-        actions.append((name, step.effect, draw))
+        actions.append((name, step.effect, lambda: shading.draw(step, target, self._visibility)))
         return actions
 
     def _display_actions(self) -> list[tuple[str, str, Callable[[], None]]]:
@@ -238,7 +232,6 @@ class Renderer:
         """What a step writes, each term by itself; a visibility is 1 and a radiance 0 where nothing is drawn."""
         textures = [self.device.target(self.size) for _ in step.writes]
         target = self.device.framebuffer(textures)
-        target.clear(*((1.0,) * 4 if step.writes[0] in VISIBILITIES else (0.0,) * 4))
         if shading.own is not None and step.light is not None:
             shading.own.draw(step.light)
         shading.draw(step, target, {})

@@ -3,6 +3,8 @@
 from importlib import import_module
 from typing import Any
 
+from lightmeter.scenes.terms import TERMS
+
 from .effect import Effect, Knobs
 from .graph import FACTORS, Step
 from .projection import viewer
@@ -81,12 +83,12 @@ class ShadingPass:
         """Declarations of the outputs, and the lines that fill them."""
         if self._separate or terms[0] in VISIBILITIES:
             declarations = [f"layout(location = {i}) out vec4 out_{term};" for i, term in enumerate(terms)]
-            lines = [f"    out_{term} = vec4({term}(surface), 0.0);" for term in terms]
+            lines = [f"    out_{t} = vec4(seen ? {t}(surface) : vec3({TERMS[t].neutral}), 0.0);" for t in terms]
             return "\n".join(declarations), "\n".join(lines)
         lines = ["    vec3 sum = vec3(0.0);"]
         for term in terms:
             factor = FACTORS.get(term)
             scale = f" * texelFetch({factor}_buffer, pixel, 0).rgb" if factor in reads else ""
             lines.append(f"    sum += {term}(surface){scale};")
-        lines.append("    out_radiance = vec4(sum, 0.0);")
+        lines.append("    out_radiance = vec4(seen ? sum : vec3(0.0), 0.0);")
         return "out vec4 out_radiance;", "\n".join(lines)

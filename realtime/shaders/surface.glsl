@@ -26,14 +26,14 @@ struct Surface {
 // reflected (the one rule for back-facing directions, scenes/optics/material.py).
 bool load_surface(ivec2 pixel, out Surface surface) {
     vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    if (position.w == 0.0) return false;
+    bool seen = position.w > 0.0;
     surface.position = position.xyz;
     surface.view = normalize(viewer.xyz - viewer.w * position.xyz);
 #ifdef GBUFFER_NORMAL_ROUGHNESS
     vec4 normal_roughness = texelFetch(gbuffer_normal_roughness, pixel, 0);
     surface.normal = normal_roughness.xyz;
     surface.roughness = normal_roughness.w;
-    if (dot(surface.normal, surface.view) <= 0.0) return false;
+    seen = seen && dot(surface.normal, surface.view) > 0.0;
 #endif
 #ifdef GBUFFER_BASE_COLOR_METALLIC
     vec4 base_color_metallic = texelFetch(gbuffer_base_color_metallic, pixel, 0);
@@ -60,5 +60,5 @@ bool load_surface(ivec2 pixel, out Surface surface) {
 #ifdef CONSTANT_OCCLUSION
     surface.occlusion = CONSTANT_OCCLUSION;
 #endif
-    return true;
+    return seen;
 }

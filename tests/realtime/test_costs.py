@@ -1,0 +1,156 @@
+"""What a frame costs: passes, shaders, textures and draws counted against the plan, and how time is taken."""
+
+import time
+
+import numpy as np
+import pytest
+from small_scenes import LAMP, WHITE, camera, facing, image, moved, renderer, scene_of
+
+from lightmeter.realtime.device import Device
+from lightmeter.realtime.graph import Choice
+from lightmeter.realtime.shaders import source
+from lightmeter.realtime.timing import Clock, Time
+from lightmeter.scenes import shapes
+from lightmeter.scenes.load import load
+from lightmeter.scenes.model import DirectionalLight, Material, Shape, Texture
+
+SUN = DirectionalLight("sun", (-0.3, -0.5, -0.8), (1, 1, 1))
+
+
+def counted(scene, choice=None, frames=1):
+    """What a renderer made, and what `frames` frames then issued, on a device of its own."""
+    device = Device()
+    maker = renderer(device, scene, (16, 16), choice)
+    made = dict(device.counts)
+    maker.draw()
+    first = device.counts["draws"]
+    for _ in range(frames - 1):
+        maker.draw()
+    assert device.counts["draws"] == first * frames
+    assert maker.render().radiance.shape == (16, 16, 3)
+    return made, dict(device.counts), first
+
+
+def test_the_plane_costs_the_least(device):
+    """One flat diffuse shape, one light that nothing blocks.
+
+    shaders: the G-buffer, the lighting, tone, encode. textures: position, normal with roughness (base colour, metallic,
+    specular and occlusion are constants), depth, radiance, and one each for tone and encode. draws: the shape, and a
+    full-screen triangle for each of lighting, tone and encode.
+    """
+    _, all_made, draws = counted(load("plane"), frames=3)
+    assert all_made["shaders"] == 4
+    assert all_made["textures"] == 2 + 1 + 1 + 2
+    assert draws == 1 + 3
+
+
+def test_without_lights_and_display_only_the_surface_is_drawn():
+    """No step reads a channel: the position alone is left, and nothing is drawn over the whole screen."""
+    _, made, draws = counted(scene_of(facing(WHITE)), Choice(only=("supersampling",)))
+    assert (made["shaders"], made["textures"], draws) == (1, 1 + 1 + 1, 1)
+
+
+def test_every_part_of_a_scene_adds_what_it_needs_and_no_more():
+    """From the plane: an environment adds a background and its effect; a second shape adds shadows; and so on."""
+    ball = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
+    plain = counted(scene_of(facing(WHITE), lights=(LAMP,)))
+    # Another shape: a shadow map (depth program and texture, six faces) and the comparison (program, buffer); a draw
+    # in the G-buffer; and light from one to the other (program and draw of the ambient term).
+    two = counted(scene_of(facing(WHITE), ball, lights=(LAMP,)))
+    assert two[1]["shaders"] == plain[1]["shaders"] + 2 + 1
+    assert two[1]["textures"] == plain[1]["textures"] + 2
+    assert two[2] == plain[2] + 1 + 6 + 1 + 1
+    # A second light of the same kind has the same programs and textures: one map more to draw, and two passes.
+    again = counted(scene_of(facing(WHITE), ball, lights=(LAMP, LAMP)))
+    assert again[1]["shaders"] == two[1]["shaders"] and again[1]["textures"] == two[1]["textures"]
+    assert again[2] == two[2] + 6 + 2
+    # A directional one has a map of its own (one view) and a comparison of its own.
+    sun = counted(scene_of(facing(WHITE), ball, lights=(LAMP, SUN)))
+    assert sun[1]["shaders"] == two[1]["shaders"] + 1 and sun[1]["textures"] == two[1]["textures"] + 1
+    assert sun[2] == two[2] + 1 + 2
+    # An environment: the background behind everything, in the same ambient pass.
+    sky = counted(scene_of(facing(WHITE), ball, lights=(LAMP,), radiance=(1, 1, 1)))
+    assert sky[1]["shaders"] == two[1]["shaders"] + 1 and sky[1]["textures"] == two[1]["textures"]
+    assert sky[2] == two[2] + 1
+
+
+def test_textures_are_uploaded_once_and_only_those_that_are_read():
+    texture = Texture(image([[200]]))
+    material = Material("a", base_color_texture=texture)
+    other = Material("b", (0.5, 0.5, 0.5), base_color_texture=texture)
+    one = counted(scene_of(facing(material), lights=(LAMP,)))
+    two = counted(
+        scene_of(facing(material), facing(other, 1, 1, moved(z=0.3)), lights=(LAMP,)),
+        Choice(without=("shadow_map", "constant_ambient")),
+    )
+    assert one[1]["textures"] == two[1]["textures"]
+    # Without an effect that reads the base colour, its texture is not looked up.
+    none = counted(scene_of(facing(material)), Choice(only=("supersampling",)))
+    assert none[1]["textures"] == 3
+
+
+def test_supersampling_draws_the_scene_once_per_sample():
+    one = counted(load("plane"))
+    four = counted(load("plane"), Choice(settings={"supersampling": {"grid": 2}}))
+    assert four[1]["shaders"] == one[1]["shaders"] + 1
+    assert four[1]["textures"] == one[1]["textures"] + 1
+    assert four[2] == 4 * (one[2] - 2 + 1) + 2
+
+
+def test_on_a_software_rasteriser_time_is_wall_time_around_finish(device):
+    if not device.software:
+        pytest.skip("the rasteriser is hardware")
+    assert Clock(device).method == "wall time around glFinish"
+
+
+def test_a_timer_query_is_wrong_on_a_software_rasteriser(device):
+    """Within one run: the query ends when a pass is recorded, and the work follows at glFinish."""
+    if not device.software:
+        pytest.skip("the rasteriser is hardware")
+    text = (
+        "out vec4 c; void main() { float x = gl_FragCoord.x; for (int i = 0; i < 200; ++i) x = sin(x); c = vec4(x); }"
+    )
+    program = device.program(source(text))
+    target, vertices = device.framebuffer([device.target((512, 512))]), device.fullscreen(program)
+    target.use()
+    device.gl.enable_only(device.gl.NOTHING)
+    wall, queried = [], []
+    for _ in range(5):
+        device.finish()
+        query = device.gl.query(time=True)
+        start = time.perf_counter()
+        with query:
+            device.draw(vertices, 3)
+        device.finish()
+        wall.append(time.perf_counter() - start)
+        queried.append(query.elapsed * 1e-9)
+    assert np.median(queried) < 0.2 * np.median(wall)
+
+
+def test_passes_are_timed_by_name_and_add_up_to_about_the_frame(device):
+    times = renderer(device, load("posts"), (128, 128)).measure(frames=7, warm_up=1)
+    names = [name for name, _, _ in times.passes]
+    assert names[0] == "gbuffer" and len(set(names)) == len(names)
+    assert sum(name.startswith("shadow_map") for name in names) == 2 * 3
+    together = times.of("shadow_map")
+    assert together is not None and together.frames == 7 and together.median > 0
+    assert times.of("ssao") is None
+    assert 0.3 < sum(t.median for _, _, t in times.passes) / times.frame.median < 3
+
+
+def test_further_samples_are_the_coverage_effect_s_time(device):
+    maker = renderer(device, load("plane"), (64, 64), Choice(settings={"supersampling": {"grid": 4}}))
+    times = maker.measure(frames=5, warm_up=1)
+    further = times.of("supersampling")
+    assert further is not None and further.median > 0.5 * times.frame.median
+
+
+def test_a_time_is_a_median_and_its_deviation():
+    assert Time.of([1.0, 2.0, 3.0, 10.0, 2.5]) == Time(2.5, 0.5, 5)
+
+
+def test_a_camera_of_any_kind_draws_the_same_passes():
+    """So that the counts above hold for both lenses."""
+    flat = counted(scene_of(facing(WHITE), lights=(LAMP,)))
+    deep = counted(scene_of(facing(WHITE), lights=(LAMP,), view=camera(yfov=0.8)))
+    assert flat[1] == deep[1]
