@@ -33,8 +33,8 @@ def show_interval(measurement: Measurement) -> str:
     low, high = measurement.low, measurement.high
     if low is None or high is None or not math.isfinite(measurement.value):
         return ""
-    half = (high - low) / 2
-    if not math.isfinite(half):
+    half = half_width(measurement)
+    if half is None or not math.isfinite(half):
         return f"{show_number(low)} … {show_number(high)}"
     if half == 0:
         return "± 0"
@@ -53,10 +53,11 @@ def show_measurement(measurement: Measurement) -> str:
 
 
 def half_width(measurement: Measurement) -> float | None:
-    """Half the interval's width, None where there is no interval."""
+    """Half the interval's width, None where there is no interval, 0 where six digits cannot show it (rounding)."""
     if measurement.low is None or measurement.high is None:
         return None
-    return (measurement.high - measurement.low) / 2
+    half = (measurement.high - measurement.low) / 2
+    return 0.0 if half < 5e-6 * abs(measurement.value) else half
 
 
 def _places(value: float, half: float) -> int:

@@ -10,6 +10,7 @@ from lightmeter import options
 def add_options(parser: argparse.ArgumentParser) -> None:
     """An effect's name, and --json."""
     parser.add_argument("name", nargs="?", metavar="NAME", help="explain this effect with its knobs")
+    parser.add_argument("--markdown", action="store_true", help="print the reference page of docs/effects.md")
     options.add_json(parser)
 
 
@@ -20,6 +21,8 @@ def run(args: argparse.Namespace) -> int:
     chosen = [discovery.effect(args.name)] if args.name else list(discovery.effects().values())
     if args.json:
         print(json.dumps([description(effect) for effect in chosen], indent=2, ensure_ascii=False))
+    elif args.markdown:
+        print(markdown(chosen), end="")
     elif args.name:
         _explain(chosen[0])
     else:
@@ -39,6 +42,24 @@ def description(effect) -> dict[str, Any]:
         "citation": effect.citation,
         "knobs": knobs,
     }
+
+
+def markdown(effects) -> str:
+    """The effects' reference as Markdown, made from their declarations."""
+    from lightmeter.scenes.terms import TERMS
+
+    lines = ["# Effects", "", "Made by `lightmeter effects --markdown` from the effects' own declarations.", ""]
+    for effect in effects:
+        lines += [f"## {effect.name}", "", effect.summary, ""]
+        lines += [f"- approximates **{term}**: {TERMS[term].meaning}" for term in effect.terms]
+        lines += [f"- source: {effect.citation}", ""]
+        if effect.knobs:
+            lines += ["| knob | default | unit | range | what it does |", "| --- | --- | --- | --- | --- |"]
+            for knob in effect.knobs:
+                values = knob.range.replace("|", "\\|")
+                lines.append(f"| `{knob.name}` | {knob.default} | {knob.unit} | {values} | {knob.help} |")
+            lines.append("")
+    return "\n".join(lines).rstrip() + "\n"
 
 
 def _list(effects) -> None:
