@@ -182,7 +182,7 @@ def _one(wanted: Series, renderer: Renderer, batch: int, store: Store | None) ->
         return found[0][""], _seconds(found[1]), True
     start = time.perf_counter()
     image = renderer(wanted.spp, batch)
-    took = time.perf_counter() - start
+    took = round(time.perf_counter() - start, 6)  # as the file will say it
     if store is not None:
         store.write(wanted, name, {"": image}, took)
     return image, took, False

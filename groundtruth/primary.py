@@ -22,9 +22,9 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
     if offsets is None:
         offsets = np.array([0.5, 0.5])
     spread = np.broadcast_to(offsets, (height, width, 2)).astype(np.float32).reshape(-1, 2)
-    ray = PrimaryRays(world.scene.camera, size).through(
-        dr.arange(mi.UInt32, width * height), mi.Float(spread[:, 0].copy()), mi.Float(spread[:, 1].copy())
-    )
+    pixel = dr.arange(mi.UInt32, width * height)
+    u, v = dr.gather(mi.Vector2f, mi.Float(spread.ravel()), pixel)
+    ray = PrimaryRays(world.scene.camera, size).through(pixel, u, v)
     hit = rays.first_hit(world, ray, mi.Bool(True))
     seen = hit.is_valid()
     shape = dr.select(seen, mi.Int32(surface.shape_index(world.tables, hit.shape, seen)), -1)

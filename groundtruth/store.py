@@ -140,7 +140,7 @@ class Store:
 
     def write(self, series: Series, name: str, layers: dict[str, np.ndarray], seconds: float) -> int:
         """Writes a batch; returns its size in bytes. `layers` as in `batch_file.write`."""
-        metadata = series.metadata | {"name": name, "seconds": f"{seconds:.3f}"}
+        metadata = series.metadata | {"name": name, "seconds": f"{seconds:.6f}"}
         return batch_file.write(self.path(series, name), layers, metadata)
 
     def recall(

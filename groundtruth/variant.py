@@ -184,6 +184,12 @@ def activate() -> str:
             f"Mitsuba cannot be imported ({error})", "Reinstall it: pip install --force-reinstall mitsuba==3.9.1"
         ) from error
     mitsuba.set_variant(variant)
+    import drjit
+
+    # Whether Dr.Jit fetches a row at once depends on which of its numbers are still referred to when a kernel is
+    # compiled, which is the garbage collector's business: the same work would be compiled anew now and then (0.5 s
+    # each time). Single fetches cost about 3 %.
+    drjit.set_flag(drjit.JitFlag.PacketOps, False)
     return variant
 
 

@@ -36,8 +36,14 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
 
 
 def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.ndarray]:
-    shape, triangle = (mi.UInt32(a[where].astype(np.uint32)) for a in (flat.shape, flat.triangle))
-    position, view = (mi.Vector3f(np.ascontiguousarray(a[where].T)) for a in (flat.position, flat.view))
+    # Gathered, since a kernel that loads NumPy's memory directly depends on how that memory happens to be aligned.
+    lane = dr.arange(mi.UInt32, len(where))
+    shape, triangle = (
+        dr.gather(mi.UInt32, mi.UInt32(a[where].astype(np.uint32)), lane) for a in (flat.shape, flat.triangle)
+    )
+    position, view = (
+        dr.gather(mi.Vector3f, mi.Float(a[where].astype(np.float32).ravel()), lane) for a in (flat.position, flat.view)
+    )
     corners = SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
     b1, b2 = _barycentric(corners, position)
     point = SurfacePoint(world.tables, shape, triangle, b1, b2, world.slots, True)
