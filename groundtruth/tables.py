@@ -89,7 +89,8 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         registry_ids: Mitsuba's id of each shape's mesh; None where it has none.
 
     Raises:
-        ValueError: the scene has more texels or corners than 32 bits can count.
+        ValueError: the scene has more texels or corners than 32 bits can count, or a mesh lacks what its material
+            looks up.
     """
     corners, normals = _Rows(3), _Rows(3)
     tangents, colors, texcoords, texels = _Rows(4), _Rows(4), _Rows(2), _Rows(4)
@@ -101,6 +102,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     keep = []  # so that no id() is given out twice while the tables are built
     for index, shape in enumerate(scene.shapes):
         mesh, material = shape.world, shape.material
+        _check(shape)
         flat_index = mesh.triangles.ravel()
         keep.append(mesh)
         corners.add(index, lambda mesh=mesh, i=flat_index: mesh.positions[i])
@@ -120,7 +122,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
             texture = material.textures.get(slot)
             first_texel = texels.add(*_texel_source(slot, texture))
             texcoord, stride = no_texcoord, 0
-            if texture is not None and texture.texcoord < len(mesh.texcoords):
+            if texture is not None:
                 uv = mesh.texcoords[texture.texcoord]
                 texcoord = texcoords.add((index, texture.texcoord), lambda uv=uv, i=flat_index: uv[i])
                 stride = 1
@@ -155,6 +157,22 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     # Arrays of one element would be literals, baked into kernels.
     dr.make_opaque(*vars(tables).values())
     return tables
+
+
+def _check(shape: Shape) -> None:
+    """The scene loaders see to this (`scenes/dressing.py`); a scene made by hand may lack it."""
+    sets = len(shape.mesh.texcoords)
+    for slot, texture in shape.material.textures.items():
+        if texture.texcoord >= sets:
+            raise ValueError(
+                f"shape {shape.name!r}: its {slot} texture needs texture coordinates {texture.texcoord}, "
+                f"the mesh has {sets} sets"
+            )
+    if shape.material.normal_texture is not None and (shape.mesh.tangents is None or shape.mesh.normals is None):
+        raise ValueError(
+            f"shape {shape.name!r}: a normal texture needs a mesh with normals and tangents "
+            "(lightmeter.scenes.dressing.dressed adds them)"
+        )
 
 
 def _corner_normals(mesh: Mesh, flat_index: np.ndarray) -> np.ndarray:

@@ -21,13 +21,18 @@ WRAP_CODES = {"repeat": REPEAT, "clamp": CLAMP, "mirror": MIRROR}
 def linear_texels(texture: Texture) -> np.ndarray:
     """(H, W, 4) float32 linear texels: grey is spread to RGB, alpha is 1 where the image has none."""
     texels = texture.image.texels
-    values = texels.astype(np.float64) / 255 if texels.dtype == np.uint8 else texels.astype(np.float64)
-    channels = values.shape[2]
-    color = values[..., :3] if channels >= 3 else np.repeat(values[..., :1], 3, axis=2)
-    alpha = values[..., -1:] if channels in (2, 4) else np.ones_like(values[..., :1])
-    if texture.srgb:
-        color = srgb_decode(color)
-    return np.concatenate([color, alpha], axis=2).astype(np.float32)
+    channels = texels.shape[2]
+    color = texels[..., :3] if channels >= 3 else np.repeat(texels[..., :1], 3, axis=2)
+    out = np.ones((*texels.shape[:2], 4), np.float32)
+    if texels.dtype == np.uint8:
+        codes = np.arange(256) / 255
+        out[..., :3] = (srgb_decode(codes) if texture.srgb else codes).astype(np.float32)[color]
+    else:
+        out[..., :3] = srgb_decode(color.astype(np.float64)) if texture.srgb else color
+    if channels in (2, 4):
+        alpha = texels[..., -1]
+        out[..., 3] = alpha / np.float64(255) if texels.dtype == np.uint8 else alpha
+    return out
 
 
 @dataclass(frozen=True)

@@ -146,3 +146,13 @@ def test_a_point_on_a_triangle_that_is_not_there_is_refused():
         indirect.evaluate(world, replace(points, triangle=np.full_like(points.triangle, 7)))
     with pytest.raises(ValueError, match="shape 3, expected below 1"):
         indirect.evaluate(world, replace(points, shape=np.full_like(points.shape, 3)))
+
+
+def test_a_mesh_that_lacks_what_its_material_looks_up_is_refused():
+    mesh = rectangle((-1, -1, 0), (2, 0, 0), (0, 2, 0))
+    bumpy = Shape("card", mesh, Material(normal_texture=noise_texture(1)))
+    with pytest.raises(ValueError, match="'card': a normal texture needs a mesh with normals and tangents"):
+        World.of(Scene("bumpy", (bumpy,), CAMERA))
+    elsewhere = Shape("card", mesh, Material(base_color_texture=noise_texture(1, texcoord=1)))
+    with pytest.raises(ValueError, match="needs texture coordinates 1, the mesh has 1 sets"):
+        World.of(Scene("elsewhere", (elsewhere,), CAMERA))
