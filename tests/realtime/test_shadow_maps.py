@@ -158,6 +158,9 @@ def test_an_emitter_does_not_shadow_its_own_light(device):
     floor = points.shape == 0
     assert floor.sum() > 500
     assert (visibility[floor] == 1).all()
+    bulb = scene_of(FLOOR, Shape("bulb", shapes.sphere(0.2), glow, moved(0, 1.5, 0)), view=scene.camera)
+    points, visibility = visibility_of(device, bulb, filter="hard")
+    assert (visibility[points.shape == 0] == 1).all()
     shaded = scene_of(*scene.shapes, BOX, view=scene.camera)
     points, visibility = visibility_of(device, shaded, filter="hard")
     assert (visibility[points.shape == 0] == 0).any()
