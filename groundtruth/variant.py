@@ -25,8 +25,8 @@ OLDEST_USABLE_LLVM = 17
 
 _FOLDERS = ("/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib/wsl/lib")
 _REMEDY = (
-    "Install LLVM 17 or newer (Debian 12: libllvm19 from bookworm-backports; Debian 13, Ubuntu 24.10 and later: "
-    f"`sudo apt-get install libllvm19`), or set {LIBRARY_VARIABLE} to the path of its libLLVM.so"
+    "Install LLVM 17 or newer (Debian, Ubuntu: `sudo apt-get install libllvm19`), "
+    f"or set {LIBRARY_VARIABLE} to the path of its libLLVM.so"
 )
 
 
