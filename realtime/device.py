@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,30 @@ class DeviceError(RuntimeError):
     """No OpenGL context, or a shader that does not compile; the message says what to do."""
 
 
+@cache
+def _context():
+    """The process's one context.
+
+    moderngl frees an object when Python forgets it, in whichever context is current then. With a context per renderer
+    an old one's textures would be freed by their numbers, which are a new one's.
+    """
+    import moderngl
+
+    try:
+        context = moderngl.create_context(standalone=True, backend="egl", require=410)
+    except Exception as first:
+        try:  # macOS and Windows have no EGL; their own back end is moderngl's default
+            context = moderngl.create_context(standalone=True, require=410)
+        except Exception:
+            raise DeviceError(
+                f"no OpenGL 4.1 context could be made ({first}); `lightmeter doctor` names what to install"
+            ) from None
+    context.gc_mode = "auto"
+    return context
+
+
 class Device:
-    """A headless OpenGL 4.1 context.
+    """A headless OpenGL 4.1 context, which all devices of a process share.
 
     Attributes:
         counts: how many "shaders", "textures" and "draws" were made so far.
@@ -31,18 +54,7 @@ class Device:
     """
 
     def __init__(self) -> None:
-        import moderngl
-
-        try:
-            self.gl = moderngl.create_context(standalone=True, backend="egl", require=410)
-        except Exception as first:
-            try:  # macOS and Windows have no EGL; their own back end is moderngl's default
-                self.gl = moderngl.create_context(standalone=True, require=410)
-            except Exception:
-                raise DeviceError(
-                    f"no OpenGL 4.1 context could be made ({first}); `lightmeter doctor` names what to install"
-                ) from None
-        self.gl.gc_mode = "auto"
+        self.gl = _context()
         self.counts: Counter[str] = Counter()
         self.renderer = str(self.gl.info["GL_RENDERER"])
         self.version = str(self.gl.info["GL_VERSION"])
