@@ -16,7 +16,8 @@ _SAMPLES = {2: 3, 6: 4}  # colour type: samples per pixel
 
 def is_png16(head: bytes) -> bool:
     """Whether `head`, the first 26 bytes of a file, opens a 16-bit colour PNG."""
-    return head[:8] == _SIGNATURE and head[12:16] == b"IHDR" and head[24] == 16 and head[25] in _SAMPLES
+    whole = len(head) >= 26 and head[:8] == _SIGNATURE and head[12:16] == b"IHDR"
+    return whole and head[24] == 16 and head[25] in _SAMPLES
 
 
 def read_png16(path: Path, max_pixels: int = MAX_PIXELS) -> npt.NDArray[np.uint16]:
