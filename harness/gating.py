@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lightmeter.comparison import Outcome, Sides, clipped, compare
+from lightmeter.conditions import Conditions
 from lightmeter.failures import UsageError, user_failures
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
 from lightmeter.limit_scenes import find_scenes, same_scene
-from lightmeter.limits import FRAME, Conditions, Limit
+from lightmeter.limits import FRAME, Limit
 from lightmeter.metrics.input_error import InputError
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric, measure
@@ -28,7 +29,7 @@ class Task:
     """One comparison, and the limits that it decides.
 
     Attributes:
-        name: the scene as the user names it, with the knobs that this comparison sets, unique among tasks.
+        name: the scene as the user names it, with what sets this comparison apart from `[defaults]`; unique.
     """
 
     name: str
@@ -72,9 +73,7 @@ def plan_tasks(limits: Sequence[Limit], file: Path, asked: Sequence[str] = ()) -
             raise UsageError(f"{file} has no limit for the scene {word!r}; {nearest(word, sources)}")
     chosen = {s for s in sources if not asked or any(same_scene(word, s) for word in asked)}
     return [
-        _task(source, conditions, tuple(found), [c for s, c in groups if s == source])
-        for (source, conditions), found in groups.items()
-        if source in chosen
+        _task(source, conditions, tuple(found)) for (source, conditions), found in groups.items() if source in chosen
     ]
 
 
@@ -123,12 +122,8 @@ def _check_metric(limit: Limit) -> None:
         raise UsageError(f"{limit.place}: {metric.name} is judged by its magnitude: expected max of 0 or more")
 
 
-def _task(source: str, conditions: Conditions, limits: tuple[Limit, ...], siblings: list[Conditions]) -> Task:
-    """A task whose limits can all be decided.
-
-    Args:
-        siblings: all conditions under which this scene is compared; where there are several, the name tells which.
-    """
+def _task(source: str, conditions: Conditions, limits: tuple[Limit, ...]) -> Task:
+    """A task whose limits can all be decided."""
     place = limits[0].place
     try:
         scene = load(source, conditions.camera)
@@ -137,8 +132,8 @@ def _task(source: str, conditions: Conditions, limits: tuple[Limit, ...], siblin
         raise UsageError(f"{place}: {error}") from None
     for limit in limits:
         _check_target(limit, plan, source)
-    label = "" if len(siblings) == 1 else _difference(conditions, siblings)
-    return Task(f"{source} [{label}]" if label else source, scene, conditions, limits)
+    variant = limits[0].variant
+    return Task(f"{source} [{variant}]" if variant else source, scene, conditions, limits)
 
 
 def _check_target(limit: Limit, plan: Plan, source: str) -> None:
@@ -158,21 +153,6 @@ def _choice(conditions: Conditions) -> Choice:
     for effect, knob, value in conditions.settings:
         settings.setdefault(effect, {})[knob] = value
     return Choice(conditions.only, conditions.without, conditions.use, settings)
-
-
-def _difference(conditions: Conditions, siblings: list[Conditions]) -> str:
-    """What sets these conditions apart from the others of the same scene."""
-    words = {c: _condition_words(c) for c in siblings}
-    common = set.intersection(*(set(w) for w in words.values()))
-    return ", ".join(word for word in words[conditions] if word not in common)
-
-
-def _condition_words(c: Conditions) -> list[str]:
-    found = [f"{effect}.{knob}={value}" for effect, knob, value in c.settings]
-    found += [f"{name} {', '.join(value)}" for name in ("only", "without", "use") if (value := getattr(c, name))]
-    budget = f"{c.budget.spp} spp" if c.budget.seconds is None else f"{c.budget.seconds:g} s"
-    found += [f"{c.size[0]}x{c.size[1]}", budget, f"seed {c.seed}"]
-    return found + ([f"camera {c.camera}"] if c.camera is not None else [])
 
 
 def _measurement(outcome: Outcome, limit: Limit) -> Measurement:

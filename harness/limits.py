@@ -21,6 +21,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from lightmeter import options
+from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.files import read_bytes
@@ -31,7 +32,6 @@ LARGEST = 2**20
 
 FRAME = "frame"
 
-KnobValue = bool | int | float | str
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=1000)]
 Names = tuple[Name, ...]
 Bound = Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -88,25 +88,6 @@ class LimitsFile(Strict):
 
 
 @dataclass(frozen=True)
-class Conditions:
-    """How a scene is compared, once for all limits that ask for the same.
-
-    Attributes:
-        size: (width, height).
-        settings: (effect, knob, value), sorted.
-    """
-
-    size: tuple[int, int]
-    budget: options.Budget
-    seed: int
-    camera: str | int | None
-    only: tuple[str, ...]
-    without: tuple[str, ...]
-    use: tuple[str, ...]
-    settings: tuple[tuple[str, str, KnobValue], ...]
-
-
-@dataclass(frozen=True)
 class Limit:
     """A bound on one number.
 
@@ -115,6 +96,7 @@ class Limit:
         scene: the pattern or name as it is written.
         of: "frame", or an effect's name.
         high, low: the bound; exactly one of them is given.
+        variant: what sets its conditions apart from `[defaults]`, in words.
     """
 
     place: str
@@ -124,6 +106,7 @@ class Limit:
     high: float | None
     low: float | None
     conditions: Conditions
+    variant: str = ""
 
     @property
     def words(self) -> str:
@@ -161,25 +144,29 @@ def _parse(data: bytes, where: str) -> LimitsFile:
 
 
 def _limit(entry: LimitEntry, defaults: Setting, place: str) -> Limit:
-    def said(name: str) -> Any:
-        own = getattr(entry, name)
-        return own if name in entry.model_fields_set else getattr(defaults, name)
+    usual, conditions = _conditions(defaults, defaults, place), _conditions(entry, defaults, place)
+    variant = conditions.beside(usual)
+    return Limit(place, entry.scene, entry.of, entry.metric, entry.max, entry.min, conditions, variant)
 
-    if "spp" in entry.model_fields_set or "seconds" in entry.model_fields_set:
-        spp, seconds = entry.spp, entry.seconds
-    else:
-        spp, seconds = defaults.spp, defaults.seconds
-    conditions = Conditions(
+
+def _conditions(setting: Setting, defaults: Setting, place: str) -> Conditions:
+    """The conditions that a setting asks for, where it says nothing those of the defaults."""
+
+    def said(name: str) -> Any:
+        return getattr(setting if name in setting.model_fields_set else defaults, name)
+
+    budgeted = setting if setting.model_fields_set & {"spp", "seconds"} else defaults
+    spp = None if budgeted.seconds is not None else budgeted.spp or options.DEFAULT_SPP
+    return Conditions(
         size=options.size(said("size") or options.DEFAULT_SIZE),
-        budget=options.Budget(None, seconds) if seconds is not None else options.Budget(spp or options.DEFAULT_SPP),
+        budget=options.Budget(spp, budgeted.seconds),
         seed=said("seed") or 0,
         camera=said("camera"),
         only=said("only"),
         without=said("without"),
         use=said("use"),
-        settings=tuple(sorted((_knobs(defaults, place) | _knobs(entry, place)).values())),
+        settings=tuple(sorted((_knobs(defaults, place) | _knobs(setting, place)).values())),
     )
-    return Limit(place, entry.scene, entry.of, entry.metric, entry.max, entry.min, conditions)
 
 
 def _knobs(setting: Setting, place: str) -> dict[tuple[str, str], tuple[str, str, KnobValue]]:

@@ -1,0 +1,44 @@
+"""How a scene is compared."""
+
+from dataclasses import dataclass
+
+from lightmeter.options import Budget
+
+KnobValue = bool | int | float | str
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """How a scene is compared, once for all limits that ask for the same.
+
+    Attributes:
+        size: (width, height).
+        settings: (effect, knob, value), sorted.
+    """
+
+    size: tuple[int, int]
+    budget: Budget
+    seed: int
+    camera: str | int | None
+    only: tuple[str, ...]
+    without: tuple[str, ...]
+    use: tuple[str, ...]
+    settings: tuple[tuple[str, str, KnobValue], ...]
+
+    def beside(self, usual: "Conditions") -> str:
+        """What sets these conditions apart from the usual ones, in words; "" where nothing does."""
+        mine, theirs = self._words(), usual._words()
+        found = [text for kind, text in mine.items() if theirs.get(kind) != text]
+        return ", ".join(found + [f"not {text}" for kind, text in theirs.items() if kind not in mine])
+
+    def _words(self) -> dict[str, str]:
+        found = {f"{effect}.{knob}": f"{effect}.{knob}={value}" for effect, knob, value in self.settings}
+        for name in ("only", "without", "use"):
+            if value := getattr(self, name):
+                found[f" {name}"] = f"{name} {' '.join(value)}"
+        if self.camera is not None:
+            found[" camera"] = f"camera {self.camera}"
+        found[" size"] = f"{self.size[0]}x{self.size[1]}"
+        found[" budget"] = f"{self.budget.spp} spp" if self.budget.seconds is None else f"{self.budget.seconds:g} s"
+        found[" seed"] = f"seed {self.seed}"
+        return found
