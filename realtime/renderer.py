@@ -210,12 +210,6 @@ class Renderer:
                 (direct if "direct" in step.writes else visibility)[step.light] = values[step.writes[0]]
         return Capture(points, direct, visibility, frame)
 
-    def emission(self, offset: tuple[float, float]) -> np.ndarray:
-        """(H, W, 3) float32: what is seen to emit at a sub-pixel offset, the background included."""
-        gbuffer, radiance, _ = self._capture_stage
-        gbuffer.draw(offset)
-        return self.device.read(radiance)[..., :3]
-
     @property
     def _capture_stage(self):
         if not hasattr(self, "_captured"):

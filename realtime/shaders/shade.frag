@@ -1,6 +1,6 @@
 // The full-screen pass of an effect: loads the surface, calls the effect's function for each term it writes, and
-// either adds their composition to the frame's radiance or writes each term to an attachment of its own. Where nothing is
-// seen the result is chosen away, not discarded: to a software rasteriser masks cost more than arithmetic.
+// either adds their composition to the frame's radiance or writes each term to an attachment of its own. Where nothing
+// is seen the result is chosen away, not discarded: to a software rasteriser masks cost more than arithmetic.
 #include "surface.glsl"
 EFFECT
 #ifdef READS_VISIBILITY

@@ -155,3 +155,10 @@ def test_supersampling_is_the_mean_of_its_offsets(device):
             total += seen.frame.get(term, 0.0)
     assert len(maker.offsets) == 4
     assert np.abs(whole - total / 4).max() < 16 * EPS * total.max()
+
+
+@pytest.mark.parametrize("name", ["torus", "cornell-box", "plane"])
+def test_emission_alone_is_that_of_the_points(device, name):
+    """With and without emitters, with and without an environment."""
+    maker = renderer(device, load(name), (32, 32))
+    assert np.array_equal(maker.emission((0.2, 0.1)), maker.capture((0.2, 0.1), terms=False).points.emission)

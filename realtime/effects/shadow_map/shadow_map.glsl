@@ -14,10 +14,11 @@ int cube_face(vec3 d) {
     return d.z >= 0.0 ? 4 : 5;
 }
 
-// How far a point moves towards the light so that its own surface does not shadow it. One texel further along the map
-// a plane's depth changes by texel·√(1 − (n·a)²)·|l·a|/(n·l), with `a` the map's axis; where the light is straight along
+// How far a point moves towards the light so that its own surface does not shadow it. One texel further along the
+// map a plane's depth changes by texel·√(1 − (n·a)²)·|l·a|/(n·l), with `a` the map's axis; where the light is straight along
 // the axis that is texel·tan θ. The filter's farthest corner lies `radius` texels away.
-float bias_distance(float n_dot_l, float n_dot_a, float l_dot_a, float texel, float constant, float slope, float radius) {
+float bias_distance(float n_dot_l, float n_dot_a, float l_dot_a, float texel, float constant, float slope,
+                    float radius) {
     float across = sqrt(max(1.0 - n_dot_a * n_dot_a, 0.0));
     return texel * (constant + slope * radius * across * abs(l_dot_a) / clamp(n_dot_l, 0.05, 1.0));
 }
@@ -62,6 +63,7 @@ vec3 visibility(Surface surface) {
     bool before = project(view, point, coordinate);
     // Outside of the map, and behind a spot, nothing stands in the light's way (nor does any light arrive).
     float margin = float(FILTER_RADIUS) / float(RESOLUTION);
-    bool inside = all(greaterThanEqual(coordinate.xy, vec2(margin))) && all(lessThan(coordinate, vec3(vec2(1.0 - margin), 1.0)));
+    bool inside = all(greaterThanEqual(coordinate.xy, vec2(margin))) &&
+                  all(lessThan(coordinate, vec3(vec2(1.0 - margin), 1.0)));
     return vec3(before && inside ? filtered(coordinate, face) : 1.0);
 }
