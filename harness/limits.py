@@ -54,7 +54,7 @@ class Setting(Strict):
     without: Names = ()
     use: Names = ()
     set: dict[str, KnobValue | dict[str, KnobValue]] = Field(
-        {}, description='Knobs: {shadow_map.resolution = 2048}, or {"shadow_map.resolution" = 2048}.'
+        default={}, description='Knobs: {shadow_map.resolution = 2048}, or {"shadow_map.resolution" = 2048}.'
     )
 
     @model_validator(mode="after")
