@@ -67,7 +67,7 @@ def picture(images: ImagePair, pixels_per_degree: float = PIXELS_PER_DEGREE) -> 
     is_display = images.space == "display"
     tested = images.tested_shown if is_display else images.tested
     truth = images.reference_shown if is_display else images.reference
-    bad: np.ndarray = np.isnan(images.tested_shown).any(axis=2)
+    bad = np.isnan(images.tested_shown.sum(axis=2))
     sound = np.where(np.expand_dims(bad, 2), images.reference_shown, images.tested_shown)
     flip = np.where(bad, np.nan, ldr_flip(sound, images.reference_shown, pixels_per_degree))
     errors = (
