@@ -56,7 +56,8 @@ def _rgb(color) -> dict:
 
 def _opaque(kind, *values):
     number = int if kind is mi.UInt32 else float
-    array = kind(*map(number, values)) if len(values) > 1 else kind([number(values[0])])
+    plain = [number(value) for value in values]
+    array = kind(*plain) if len(plain) > 1 else kind(plain)
     dr.make_opaque(array)
     return array
 

@@ -123,6 +123,8 @@ def compare(
     report("frame time", 1, 1)
     truth = Truth(scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
     reference = truth.reference
+    if reference.reused:
+        say(f"reused {reference.reused} of {truth.batches} reference batches")
     display = display_transform(plan)
     sides = _effect_sides(renderer, truth, report)
     sides |= _display_sides(plan, reference.batches)
@@ -171,6 +173,7 @@ def _effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str,
     captures = [renderer.capture(tuple(offset)) for offset in offsets]
     points = stack_points([capture.points for capture in captures])
     exact_points = truth.exact_material(points)
+    spp = max(1, truth.reference.spp // len(offsets))
     shading = {step.effect for step in plan.steps if step.writes[0] not in ("tone", "encode")}
     sums = {name: _Sums() for name in shading}
     material, coverage = plan.effect_of("material"), plan.effect_of("coverage")
@@ -179,13 +182,13 @@ def _effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str,
             sums[name] = _Sums()
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
-        at_frame = truth.batch(points, batch, "frame")
+        at_frame = truth.batch(points, batch, "frame", spp)
         for name in shading:
             tested, exact = _contribution(plan, name, captures, at_frame)
             sums[name].tested.append(mean_samples(tested))
             sums[name].truth.append(mean_samples(exact))
         same = exact_points is points
-        exact = at_frame if same else truth.batch(exact_points, batch, "exact material")
+        exact = at_frame if same else truth.batch(exact_points, batch, "exact material", spp)
         if material is not None:
             sums[material].tested.append(at_frame.composition())
             sums[material].truth.append(exact.composition())
@@ -258,18 +261,25 @@ def _display_sides(plan: Plan, reference: list[np.ndarray]) -> dict[str, Sides]:
 
 
 def closure_batches(
-    renderer: Renderer, truth: Truth, report: Report = silent, samples: int = MOST_SAMPLES, emission_samples: int = 1
+    renderer: Renderer,
+    truth: Truth,
+    report: Report = silent,
+    samples: int = MOST_SAMPLES,
+    emission_spp: int = 32,
+    spp: int | None = None,
 ) -> np.ndarray:
     """(K, H, W, 3) float32: images with every term exact, each at sub-pixel offsets of its own.
 
     Args:
         samples: sub-pixel offsets per batch, at most.
-        emission_samples: G-buffers that emission is averaged over, for every one that the oracles see. Emission
-            needs no oracle, and the edge of a bright lamp holds most of what sub-pixel offsets leave uncertain.
+        emission_spp: samples per pixel of the control variate: the edge of a bright lamp holds most of what shared
+            sub-pixel offsets leave uncertain, and what is seen to emit can be traced by itself.
+        spp: the oracles' samples per point and offset; by default they get the reference's, shared by the offsets.
     """
     from lightmeter.groundtruth.oracles import coverage
 
     count, samples = truth.batches, min(truth.reference.spp, samples)
+    spp = spp or max(1, truth.reference.spp // samples)
     # The centre's points stand for the rasteriser: another one, or other shaders, and nothing stale is recalled.
     series = Series.of(
         "closure",
@@ -277,20 +287,16 @@ def closure_batches(
         truth.size,
         truth.reference.spp,
         truth.seed,
-        samples=(samples, emission_samples),
+        samples=(samples, emission_spp, spp),
         points=points_key(renderer.capture(terms=False).points),
     )
-    offsets = coverage.evaluate(count, samples * emission_samples, seed=truth.seed + FAMILIES["closure"]) - 0.5
+    offsets = coverage.evaluate(count, samples, seed=truth.seed + FAMILIES["closure"]) - 0.5
 
     def make(batch: int) -> np.ndarray:
-        places = [tuple(offset) for offset in offsets[batch]]
-        seen = [renderer.capture(place, terms=False).points for place in places[::emission_samples]]
-        exact = truth.batch(truth.exact_material(stack_points(seen)), batch, "closure", keep=False)
-        image = exact.composition()
-        if emission_samples > 1:
-            emission = np.mean([renderer.emission(place) for place in places], axis=0, dtype=np.float64)
-            image = (image + emission - mean_samples(exact.emission)).astype(np.float32)
-        return image
+        places = offsets[batch]
+        seen = [renderer.capture(tuple(place), terms=False).points for place in places]
+        exact = truth.batch(truth.exact_material(stack_points(seen)), batch, "closure", spp, keep=False)
+        return (exact.composition() + truth.emission_variate(places, batch, emission_spp)).astype(np.float32)
 
     images = []
     for batch in range(count):

@@ -24,17 +24,22 @@ class Budget:
     Attributes:
         spp: samples per pixel of the reference and of every oracle, spread over the batches; None: by time.
         seconds: time for the reference, None: by samples.
-        batches: how many independent batches at least.
+        least: how many independent batches at least.
     """
 
     spp: int | None = DEFAULT_SPP
     seconds: float | None = None
-    batches: int = MIN_BATCHES
+    least: int = MIN_BATCHES
 
     @property
     def spp_per_batch(self) -> int:
         """Samples per pixel of one batch."""
-        return max(1, (self.spp or DEFAULT_SPP) // self.batches)
+        return max(1, (self.spp or DEFAULT_SPP) // self.least)
+
+    @property
+    def batches(self) -> int:
+        """How many batches of that size come closest to the samples asked for without exceeding them."""
+        return max(self.least, (self.spp or DEFAULT_SPP) // self.spp_per_batch)
 
 
 @dataclass(frozen=True)

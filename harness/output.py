@@ -7,28 +7,17 @@ import numpy as np
 
 from lightmeter.comparison import Outcome, Sides, clipped
 from lightmeter.metrics.flip import ldr_flip
+from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
-from lightmeter.reports.heatmap import write_heatmap
-from lightmeter.reports.html import write_report
-from lightmeter.reports.layers import write_layers
 from lightmeter.reports.pictures import Pair, flip_error, rms_error, signed_error
-from lightmeter.reports.results import to_json, write_json
+from lightmeter.reports.results import to_json
 
 RADIANCE = "W/sr/m²"
 
 
 def write_outcome(folder: Path, outcome: Outcome) -> Path:
     """Write everything; gives the report's path."""
-    folder.mkdir(parents=True, exist_ok=True)
-    pairs = pictures(outcome)
-    write_json(folder / "results.json", outcome.results)
-    write_layers(folder / "layers.exr", pairs, {"scene": outcome.results.scene})
-    heatmaps = folder / "heatmaps"
-    heatmaps.mkdir(exist_ok=True)
-    for pair in pairs:
-        for error in pair.errors:
-            write_heatmap(heatmaps / f"{pair.name}.{error.name}.png", error, f"{pair.title}: {error.title}")
-    return write_report(folder, outcome.results, pairs, display_curve=display_curve(outcome))
+    return write_folder(folder, outcome.results, pictures(outcome), display_curve(outcome))
 
 
 def pictures(outcome: Outcome) -> list[Pair]:

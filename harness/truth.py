@@ -110,15 +110,32 @@ class Truth:
 
         return material.evaluate(self._world, points)
 
-    def batch(self, points: SurfacePoints, batch: int, family: str, keep: bool = True) -> ExactBatch:
+    def emission_variate(self, offsets: np.ndarray, batch: int, spp: int) -> np.ndarray | float:
+        """A control variate of mean 0: what is seen to emit, over the whole pixels less at the offsets given.
+
+        Args:
+            offsets: (n, 2) from the pixels' centres, pixels right and down.
+            spp: samples per pixel of the mean over the pixels.
+
+        Returns:
+            (H, W, 3), or 0 where nothing is seen to emit.
+        """
+        if not self.scene.area_lights and self.scene.environment is None:
+            return 0.0
+        from lightmeter.groundtruth.primary import seen_emission
+
+        everywhere = seen_emission(self._world, self.size, spp=spp, seed=self.seed + FAMILIES["emission"] + batch)
+        here = [seen_emission(self._world, self.size, offset + 0.5) for offset in offsets]
+        return everywhere - np.mean(here, axis=0, dtype=np.float64)
+
+    def batch(self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool = True) -> ExactBatch:
         """One batch of every term at stacked points.
 
         Args:
             family: names the random numbers, so that different points are given independent ones.
+            spp: samples per point.
             keep: whether the store keeps the oracles one by one.
         """
-        samples = len(points.shape)
-        spp = max(1, self.reference.spp // samples)
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
         if "direct" not in self.missing:
@@ -173,5 +190,5 @@ class Truth:
         return self._keys[points]
 
 
-FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000}
+FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000, "emission": 0x40000}
 """What is added to the seed for each set of points."""

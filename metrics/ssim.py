@@ -47,7 +47,8 @@ def ssim_map(tested: np.ndarray, reference: np.ndarray, data_range: float = 1.0)
             actual=f"{reference.shape[1]}×{reference.shape[0]}",
             remedy="Use larger images, or a pixel-wise metric such as rmse.",
         )
-    _, similarity = structural_similarity(
+    # With `full`, the mean and the map: scikit-image's own type cannot say so.
+    _, similarity = structural_similarity(  # pyright: ignore[reportAssignmentType]
         np.asarray(tested, np.float32),
         np.asarray(reference, np.float32),
         data_range=data_range,

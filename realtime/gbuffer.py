@@ -123,7 +123,7 @@ class GBuffer:
 
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
-        names = {f"GBUFFER_{a.name.upper()}": True for a in self._attachments if a.channels}
+        names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._attachments if a.channels}
         return names | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:

@@ -66,7 +66,7 @@ def _measured(measurement: Measurement) -> dict[str, Any]:
         "value": show_value(measurement),
         "interval": show_interval(measurement),
         "unit": measurement.unit,
-        "failed": not math.isfinite(measurement.value),
+        "failed": math.isnan(measurement.value),  # an infinite PSNR is a perfect one
         "remarks": "; ".join(remark for remark in remarks if remark),
     }
 

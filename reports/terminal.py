@@ -107,7 +107,7 @@ def _full(measurement: Measurement | None) -> Text:
 
     if measurement is None:
         return Text("–", style="dim")
-    if not math.isfinite(measurement.value):
+    if math.isnan(measurement.value):  # an infinite PSNR is a perfect one
         return Text(f"✕ {show_measurement(measurement)}", style="bold red")
     return Text(show_measurement(measurement))
 
@@ -122,7 +122,7 @@ def _number(measurement: Measurement | None) -> Text:
 
     if measurement is None:
         return Text("–", style="dim")
-    failed = not math.isfinite(measurement.value)
+    failed = math.isnan(measurement.value)
     return Text(("✕ " if failed else "") + show_value(measurement), style="bold red" if failed else "")
 
 

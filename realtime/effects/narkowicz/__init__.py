@@ -11,8 +11,8 @@ EFFECT = Effect(
         Knob(
             "prescale",
             0.5,
-            "Factor on the radiance before the curve: 0.5 meets the ACES 1.0 SDR view (the published error of 0.0138 comes "
-            "out there), 0.6 is its author's advice, 1 is the fit as often pasted.",
+            "Factor on the radiance before the curve: 0.5 meets the ACES 1.0 SDR view (the published error of 0.0138 "
+            "comes out there), 0.6 is its author's advice, 1 is the fit as often pasted.",
             low=0.0,
             high=100.0,
             sweep=(0.4, 0.5, 0.6, 0.8, 1.0),
