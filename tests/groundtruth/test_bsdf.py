@@ -2,14 +2,15 @@
 
 import numpy as np
 import pytest
-from noise import assert_mean, sidak
 from scipy import stats
-from small_scenes import floor, looking
 
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.model import Material, Scene, Shape
 from lightmeter.scenes.optics import material as optics
+
+from .noise import assert_mean, sidak
+from .small_scenes import floor, looking
 
 CASES = [
     (metallic, roughness, degrees)

@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from noise import assert_mean
-from small_scenes import WHITE, floor, hollow_sphere, inside_out, looking, placed, points_at, rectangle
 
 from lightmeter.groundtruth.oracles import direct, environment, environment_visibility, visibility
 from lightmeter.groundtruth.reference import render_batch
@@ -20,6 +18,9 @@ from lightmeter.scenes.model import (
     Shape,
     SpotLight,
 )
+
+from .noise import assert_mean
+from .small_scenes import WHITE, floor, hollow_sphere, inside_out, looking, placed, points_at, rectangle
 
 DOWN = looking((0, 4, 0), (0, 0, 0), ymag=1.0, up=(0, 0, -1))
 

@@ -4,8 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from noise import assert_mean, assert_same_mean
-from small_scenes import WHITE, floor, looking, points_at, rectangle
 
 from lightmeter.groundtruth.emitters import SurfaceEmitter
 from lightmeter.groundtruth.oracles import direct, indirect, visibility
@@ -15,6 +13,9 @@ from lightmeter.groundtruth.variant import mi
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes import shapes
 from lightmeter.scenes.model import Image, Material, Scene, Shape, Texture
+
+from .noise import assert_mean, assert_same_mean
+from .small_scenes import WHITE, floor, looking, points_at, rectangle
 
 SIZE = (24, 24)
 CAMERA = looking((0, 1.5, 4), (0, 0.5, 0), yfov=0.7)

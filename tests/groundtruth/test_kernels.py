@@ -3,7 +3,6 @@
 from collections.abc import Callable
 
 import numpy as np
-from small_scenes import looking
 
 from lightmeter.groundtruth.oracles import direct, environment_visibility, indirect, visibility
 from lightmeter.groundtruth.primary import surface_points
@@ -12,6 +11,8 @@ from lightmeter.groundtruth.variant import dr
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes import shapes
 from lightmeter.scenes.model import Environment, Material, PointLight, Scene, Shape
+
+from .small_scenes import looking
 
 
 def grid(color: float, count: int = 12) -> Scene:

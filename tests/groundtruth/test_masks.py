@@ -4,14 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from noise import assert_same_mean
-from small_scenes import WHITE, floor, looking, points_at, rectangle
 
 from lightmeter.groundtruth import primary
 from lightmeter.groundtruth.oracles import environment_visibility, indirect, visibility
 from lightmeter.groundtruth.reference import render_batch
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.model import Environment, Image, Material, PointLight, Scene, Shape, Texture
+
+from .noise import assert_same_mean
+from .small_scenes import WHITE, floor, looking, points_at, rectangle
 
 
 def leaf_texture() -> Texture:

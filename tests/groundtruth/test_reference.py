@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from noise import assert_mean, assert_same_mean, blocks
-from small_scenes import floor, looking, points_at, rectangle
 
 from lightmeter.groundtruth import primary
 from lightmeter.groundtruth.oracles import direct
@@ -14,6 +12,9 @@ from lightmeter.groundtruth.variant import mi
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Environment, Material, Scene, Shape, SpotLight
+
+from .noise import assert_mean, assert_same_mean, blocks
+from .small_scenes import floor, looking, points_at, rectangle
 
 
 def glowing(name: str, color, mesh) -> Shape:

@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_scenes import WHITE, floor, looking
 
 from lightmeter.groundtruth import folder
 from lightmeter.groundtruth.batches import collect, series
 from lightmeter.groundtruth.folder import ReferenceFolderError
 from lightmeter.scenes.model import Environment, Scene, Shape
+
+from .small_scenes import WHITE, floor, looking
 
 SCENE = Scene(
     "room",

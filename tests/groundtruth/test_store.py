@@ -10,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from small_scenes import WHITE, floor, looking
 
 from lightmeter.groundtruth import batches, content
 from lightmeter.groundtruth.batches import batch_name, reference, reference_in_time, series
 from lightmeter.groundtruth.store import Series, Store, default_folder
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Environment, Image, Material, PointLight, Scene, Shape, Texture
+
+from .small_scenes import WHITE, floor, looking
 
 SIZE = (12, 8)
 

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from small_scenes import looking, rectangle
 
 from lightmeter.groundtruth import primary
 from lightmeter.groundtruth.oracles import material
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.model import Image, Material, Mesh, Scene, Shape, Texture
 from lightmeter.scenes.optics.texture import look_up
+
+from .small_scenes import looking, rectangle
 
 CAMERA = looking((0.1, 0.2, 3), (0, 0, 0), yfov=0.6)
 

@@ -7,7 +7,6 @@ takes away the noise that this puts into bright lights' edges.
 
 import numpy as np
 import pytest
-from noise import assert_same_mean, blocks
 from scipy import stats
 
 from lightmeter.groundtruth.oracles import coverage, environment_visibility, indirect, visibility
@@ -15,6 +14,8 @@ from lightmeter.groundtruth.primary import seen_emission, surface_points
 from lightmeter.groundtruth.reference import render_batch
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.load import load
+
+from .noise import assert_same_mean, blocks
 
 
 def composed(world: World, size, spp: int, batch: int, offsets: np.ndarray, steady: np.ndarray) -> np.ndarray:

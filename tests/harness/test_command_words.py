@@ -76,7 +76,7 @@ def test_a_wrong_word_is_named_with_what_is_right(refused, words, named):
 
 @pytest.mark.parametrize("command", ["compare", "reference", "diff"])
 def test_an_output_folder_that_cannot_be_is_found_before_the_work(refused, tmp_path, command):
-    from small_images import noise, png
+    from .small_images import noise, png
 
     (tmp_path / "file").write_text("")
     what = ["plane"]

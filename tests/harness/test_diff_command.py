@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from small_images import exr, hdr, noise, png
 
 from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
+
+from .small_images import exr, hdr, noise, png
 
 DISPLAY = {"ssim", "flip", "delta_e_2000", "psnr"}
 

@@ -3,9 +3,10 @@
 import json
 
 import pytest
-from small_images import noise, png
 
 from lightmeter.cli import COMMANDS
+
+from .small_images import noise, png
 
 SMALL = ("--size", "16x16", "--spp", "8", "-o", "out")
 

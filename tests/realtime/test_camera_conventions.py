@@ -8,12 +8,13 @@ vertices' own, seen from the origin and from the camera. Hence |Δ| ≤ 24·ε·
 
 import numpy as np
 import pytest
-from ray_casting import cast, rays
-from small_scenes import WHITE, camera, card, facing, moved, points, scene_of
 
 from lightmeter.scenes import shapes
 from lightmeter.scenes.framing import look_at
 from lightmeter.scenes.model import Camera, Shape
+
+from .ray_casting import cast, rays
+from .small_scenes import WHITE, camera, card, facing, moved, points, scene_of
 
 EPS = float(np.finfo(np.float32).eps)
 CAMERAS = {

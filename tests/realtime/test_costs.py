@@ -4,7 +4,6 @@ import time
 
 import numpy as np
 import pytest
-from small_scenes import LAMP, WHITE, camera, facing, image, moved, renderer, scene_of
 
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.graph import Choice
@@ -13,6 +12,8 @@ from lightmeter.realtime.timing import Clock, Time
 from lightmeter.scenes import shapes
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, Material, Shape, Texture
+
+from .small_scenes import LAMP, WHITE, camera, facing, image, moved, renderer, scene_of
 
 SUN = DirectionalLight("sun", (-0.3, -0.5, -0.8), (1, 1, 1))
 

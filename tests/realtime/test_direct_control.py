@@ -13,7 +13,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_scenes import renderer
 
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
@@ -22,6 +21,8 @@ from lightmeter.realtime.renderer import Renderer
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, SpotLight
 from lightmeter.scenes.optics import lights, material
+
+from .small_scenes import renderer
 
 EPS = float(np.finfo(np.float32).eps)
 ROUNDINGS = 78
@@ -155,10 +156,3 @@ def test_supersampling_is_the_mean_of_its_offsets(device):
             total += seen.frame.get(term, 0.0)
     assert len(maker.offsets) == 4
     assert np.abs(whole - total / 4).max() < 16 * EPS * total.max()
-
-
-@pytest.mark.parametrize("name", ["torus", "cornell-box", "plane"])
-def test_emission_alone_is_that_of_the_points(device, name):
-    """With and without emitters, with and without an environment."""
-    maker = renderer(device, load(name), (32, 32))
-    assert np.array_equal(maker.emission((0.2, 0.1)), maker.capture((0.2, 0.1), terms=False).points.emission)

@@ -5,7 +5,6 @@ import sys
 
 import numpy as np
 import pytest
-from small_scenes import WHITE, camera, facing, image, moved, scene_of
 
 from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.effect import Effect, EffectError, Knob
@@ -13,6 +12,8 @@ from lightmeter.realtime.graph import Choice, Step, compile_plan
 from lightmeter.scenes import library, shapes
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import AreaLight, DirectionalLight, Material, PointLight, Shape, SpotLight, Texture
+
+from .small_scenes import WHITE, camera, facing, image, moved, scene_of
 
 POINT = PointLight("point", (0, 2, 1), (1, 1, 1))
 SUN = DirectionalLight("sun", (0, -1, 0), (1, 1, 1))

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from small_scenes import WHITE, camera, facing, image, moved, renderer, scene_of
 
 from lightmeter.realtime.effects.shadow_map.views import CUBE_FACES, shadow_views
 from lightmeter.realtime.graph import Choice
 from lightmeter.scenes import shapes
 from lightmeter.scenes.framing import look_at
 from lightmeter.scenes.model import DirectionalLight, Material, Mesh, PointLight, Shape, SpotLight, Texture
+
+from .small_scenes import WHITE, camera, facing, image, moved, renderer, scene_of
 
 POSITION = (0.9, 2.5, 0.6)
 DOWN = np.array((-0.32, -0.9, -0.2)) / np.linalg.norm((-0.32, -0.9, -0.2))

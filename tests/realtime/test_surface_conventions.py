@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from small_scenes import LAMP, WHITE, camera, card, facing, image, moved, points, renderer, scene_of
 
 from lightmeter.realtime.graph import Choice
 from lightmeter.scenes import shapes
 from lightmeter.scenes.model import Material, Mesh, Shape, Texture
 from lightmeter.scenes.optics.texture import look_up
+
+from .small_scenes import LAMP, WHITE, camera, card, facing, image, moved, points, renderer, scene_of
 
 FRONT = [(-0.9, -0.9, 0), (0.9, -0.9, 0), (0, 0.9, 0)]  # anticlockwise seen from +Z
 BACK = [FRONT[0], FRONT[2], FRONT[1]]

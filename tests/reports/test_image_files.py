@@ -10,11 +10,12 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-from synthetic_pairs import make_pairs
 
 from lightmeter.reports.image_error import ImageError
 from lightmeter.reports.image_files import read_image, write_channels, write_exr
 from lightmeter.reports.layers import write_layers
+
+from .synthetic_pairs import make_pairs
 
 
 def some_image(height: int = 24, width: int = 40) -> np.ndarray:

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from chromium_pipe import Page, find_chromium, open_chromium
-from synthetic_pairs import make_pairs, make_results, narkowicz_curve
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.embedded_data import pack_image, unpack_image
 from lightmeter.reports.html import render_report, write_report
 from lightmeter.reports.results import Frame, Results
+
+from .chromium_pipe import Page, find_chromium, open_chromium
+from .synthetic_pairs import make_pairs, make_results, narkowicz_curve
 
 SHOWN = "document.querySelector('#viewer').dataset.shown === '{}'"
 

@@ -4,7 +4,6 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from rich.console import Console
-from synthetic_pairs import make_results
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.closure import closure_statement
@@ -12,6 +11,8 @@ from lightmeter.reports.junit import Verdict, to_junit, write_junit
 from lightmeter.reports.results import Closure, Frame, LeftOut, Results
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.terminal import comparison, metric_table
+
+from .synthetic_pairs import make_results
 
 
 @pytest.mark.parametrize(

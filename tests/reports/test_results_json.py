@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from synthetic_pairs import make_results
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.results import Frame, Results, ResultsError, from_json, to_json, write_json
+
+from .synthetic_pairs import make_results
 
 
 def test_results_come_back_as_they_were() -> None:

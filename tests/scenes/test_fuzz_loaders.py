@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from synthetic_gltf import QUAD, QUAD_UV, UP, Writer, png
 
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Scene
+
+from .synthetic_gltf import QUAD, QUAD_UV, UP, Writer, png
 
 BOUNDED = settings(
     max_examples=250,

@@ -4,11 +4,12 @@ import json
 
 import numpy as np
 import pytest
-from synthetic_gltf import QUAD, QUAD_UV, TWO, UP, Writer, png, quad
 
 from lightmeter.scenes.framing import CAMERA_NOTE, LIGHTS_NOTE
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, Material, PointLight, Scene, SpotLight
+
+from .synthetic_gltf import QUAD, QUAD_UV, TWO, UP, Writer, png, quad
 
 CHECKER = png(np.uint8([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]]))
 

@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from synthetic_gltf import QUAD, TWO, Writer, glb, png, quad
 
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.load import load
+
+from .synthetic_gltf import QUAD, TWO, Writer, glb, png, quad
 
 CHECKER = png(np.zeros((2, 2, 3), np.uint8))
 ENOUGH = 64 * 2**20

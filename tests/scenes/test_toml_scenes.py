@@ -4,13 +4,14 @@ import json
 
 import numpy as np
 import pytest
-from synthetic_gltf import png, quad
 
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.framing import CAMERA_NOTE, LIGHTS_NOTE
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, PointLight, SpotLight
 from lightmeter.scenes.toml import schema
+
+from .synthetic_gltf import png, quad
 
 BALL = '[[shapes]]\ntype = "sphere"\nsegments = 8\n'
 
