@@ -5,22 +5,24 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from lightmeter.comparison import Outcome, Sides, clipped, compare
+from lightmeter.comparison import Outcome, compare
 from lightmeter.conditions import Conditions
 from lightmeter.failures import UsageError, user_failures
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
 from lightmeter.limit_scenes import find_scenes, same_scene
 from lightmeter.limits import FRAME, Limit
+from lightmeter.measuring import Question, answer
 from lightmeter.metrics.input_error import InputError
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.metrics.registry import find_metric, measure
+from lightmeter.metrics.registry import find_metric
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.graph import Choice, Plan, compile_plan
 from lightmeter.reports.junit import Verdict
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Scene
+from lightmeter.sides import Sides
 from lightmeter.verdict import explain_verdict, judge
 
 
@@ -165,7 +167,4 @@ def _measurement(outcome: Outcome, limit: Limit) -> Measurement:
         sides = outcome.sides[limit.of]
     if limit.metric in known:
         return known[limit.metric]
-    tested = sides.tested[0] if len(sides.tested) == 1 else sides.tested
-    display = outcome.display if sides.space == "scene-linear" else clipped
-    options = {"display": display} if find_metric(limit.metric).domain == "display" else {}
-    return measure(limit.metric, tested, sides.truth, **options)
+    return answer(Question((limit.metric,), sides, groups=4), outcome.display)[limit.metric]

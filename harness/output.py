@@ -5,12 +5,14 @@ from pathlib import Path
 
 import numpy as np
 
-from lightmeter.comparison import Outcome, Sides, clipped
+from lightmeter.comparison import Outcome
+from lightmeter.measuring import clipped
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.pictures import Pair, flip_error, rms_error, signed_error
 from lightmeter.reports.results import to_json
+from lightmeter.sides import Sides
 
 RADIANCE = "W/sr/m²"
 

@@ -1,6 +1,7 @@
 """A folder with everything that a report has: results.json, layers.exr, heatmaps, report.html."""
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from lightmeter.reports.display_curve import DisplayCurve
@@ -16,8 +17,14 @@ def write_folder(folder: Path, results: Results, pairs: Sequence[Pair], curve: D
     heatmaps = folder / "heatmaps"
     heatmaps.mkdir(parents=True, exist_ok=True)
     write_json(folder / "results.json", results)
-    write_layers(folder / "layers.exr", pairs, {"scene": results.scene})
-    for pair in pairs:
-        for error in pair.errors:
-            write_heatmap(heatmaps / f"{pair.name}.{error.name}.png", error, f"{pair.title}: {error.title}")
-    return write_report(folder, results, pairs, display_curve=curve)
+    # Compression takes most of the time, and lets go of the interpreter.
+    with ThreadPoolExecutor(2) as pool:
+        report = pool.submit(write_report, folder, results, pairs, display_curve=curve)
+        writing = [pool.submit(write_layers, folder / "layers.exr", pairs, {"scene": results.scene})]
+        for pair in pairs:
+            for error in pair.errors:
+                path, title = heatmaps / f"{pair.name}.{error.name}.png", f"{pair.title}: {error.title}"
+                writing.append(pool.submit(write_heatmap, path, error, title))
+        for done in writing:
+            done.result()
+    return report.result()

@@ -66,4 +66,4 @@ def pack_mask(mask: npt.NDArray[np.bool_]) -> str:
 
 
 def _packed(data: bytes) -> str:
-    return base64.b64encode(zlib.compress(data, 6)).decode("ascii")
+    return base64.b64encode(zlib.compress(data, 2)).decode("ascii")

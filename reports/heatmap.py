@@ -132,7 +132,7 @@ def write_heatmap(
     """Write `draw_heatmap(…)` as PNG, in one step."""
     target = Path(path)
     partial = target.with_name(f".{target.name}.{os.getpid()}.part")
-    draw_heatmap(error, title, limits=limits, mask=mask).save(partial, format="PNG")
+    draw_heatmap(error, title, limits=limits, mask=mask).save(partial, format="PNG", compress_level=2)
     partial.replace(target)
     return target
 

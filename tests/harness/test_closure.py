@@ -8,7 +8,7 @@ in one of twenty runs by the meaning of a 95 % interval: seeds are fixed, so tha
 import numpy as np
 import pytest
 
-from lightmeter.comparison import closure_batches
+from lightmeter.closure import closure_batches
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.registry import measure
 from lightmeter.options import Budget

@@ -1,0 +1,67 @@
+"""Metrics of several comparisons, two at a time."""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.mse import RADIANCE
+from lightmeter.metrics.registry import find_metric, measure_all
+from lightmeter.metrics.ssim import WINDOW
+from lightmeter.progress import Report
+from lightmeter.sides import Sides
+
+Display = Callable[[np.ndarray], np.ndarray]
+WORKERS = 2
+"""NumPy and SciPy let go of the interpreter in what takes long; more workers than this only cost memory."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Which metrics of which two sides.
+
+    Attributes:
+        groups: jackknife replicates that correct metrics which noise biases; 0: none.
+    """
+
+    names: tuple[str, ...]
+    sides: Sides
+    groups: int = 0
+
+
+def answers(questions: Mapping[str, Question], display: Display, report: Report) -> dict[str, dict[str, Measurement]]:
+    """The metrics asked for, by the questions' names.
+
+    Args:
+        display: the frame's display transform, put on both sides of display metrics.
+    """
+    with ThreadPoolExecutor(WORKERS) as pool:
+        running = {pool.submit(answer, question, display): name for name, question in questions.items()}
+        found = {}
+        for done, future in enumerate(as_completed(running), 1):
+            found[running[future]] = future.result()
+            report("metrics", done, len(running))
+    return found
+
+
+def answer(question: Question, display: Display) -> dict[str, Measurement]:
+    """The metrics of one pair of sides."""
+    sides = question.sides
+    comparison = Comparison(sides.tested[0] if len(sides.tested) == 1 else sides.tested, sides.truth)
+    linear = sides.space == "scene-linear"
+    small = min(comparison.height, comparison.width) < WINDOW
+    usable = [name for name in question.names if name != "ssim" or not small]
+    known = {option for name in usable for option in find_metric(name).options}
+    options = {"display": display if linear else clipped, "groups": question.groups}
+    found = measure_all(usable, comparison, **{name: value for name, value in options.items() if name in known})
+    if not linear:  # a display value is a pure number
+        found = {name: replace(m, unit="" if m.unit == RADIANCE else m.unit) for name, m in found.items()}
+    return found
+
+
+def clipped(image: np.ndarray) -> np.ndarray:
+    """A display image as a display shows it."""
+    return np.clip(image, 0.0, 1.0)

@@ -1,0 +1,132 @@
+"""What each effect made, beside what its oracle says at the same points."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lightmeter.progress import Report
+from lightmeter.realtime.display import DISPLAY_TERMS, twin
+from lightmeter.realtime.graph import Plan, Step
+from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.stacking import mean_samples, stack_points
+from lightmeter.truth import ExactBatch, Truth
+
+MOST_SAMPLES = 16
+"""Sub-pixel samples at which terms are exact, at most; a frame with more is judged at some of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """An effect's buffer and its oracle's, at the same points.
+
+    Attributes:
+        tested: K images (H, W, 3), or one where the oracle has no part in it.
+        truth: K images (H, W, 3).
+        space: "scene-linear" or "display".
+    """
+
+    tested: list[np.ndarray]
+    truth: list[np.ndarray]
+    space: str = "scene-linear"
+
+
+@dataclass
+class _Sums:
+    """Batches of an effect's two sides, as they come."""
+
+    tested: list[np.ndarray] = field(default_factory=list)
+    truth: list[np.ndarray] = field(default_factory=list)
+
+
+def effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str, Sides]:
+    """Every effect that shades, filters or samples, against its oracle at the frame's own points."""
+    plan, offsets = renderer.plan, some_offsets(renderer.offsets)
+    captures = [renderer.capture(tuple(offset)) for offset in offsets]
+    points = stack_points([capture.points for capture in captures])
+    exact_points = truth.exact_material(points)
+    spp = max(1, truth.reference.spp // len(offsets))
+    shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS}
+    sums = {name: _Sums() for name in shading}
+    material, coverage = plan.effect_of("material"), plan.effect_of("coverage")
+    for name in (material, coverage):
+        if name is not None:
+            sums[name] = _Sums()
+    for batch in range(truth.batches):
+        report("oracles at the frame's points", batch, truth.batches)
+        at_frame = truth.batch(points, batch, "frame", spp)
+        for name in shading:
+            tested, exact = _contribution(plan, name, captures, at_frame)
+            sums[name].tested.append(mean_samples(tested))
+            sums[name].truth.append(mean_samples(exact))
+        same = exact_points is points
+        exact = at_frame if same else truth.batch(exact_points, batch, "exact material", spp)
+        if material is not None:
+            sums[material].tested.append(at_frame.composition())
+            sums[material].truth.append(exact.composition())
+        if coverage is not None:
+            sums[coverage].tested.append(exact.composition())
+    report("oracles at the frame's points", truth.batches, truth.batches)
+    if coverage is not None:
+        sums[coverage].truth = truth.reference.batches
+    return {name: Sides(s.tested, s.truth) for name, s in sums.items()}
+
+
+def some_offsets(offsets: np.ndarray) -> np.ndarray:
+    """At most `MOST_SAMPLES` of the offsets, evenly chosen."""
+    if len(offsets) <= MOST_SAMPLES:
+        return offsets
+    return offsets[np.linspace(0, len(offsets) - 1, MOST_SAMPLES).round().astype(int)]
+
+
+def _contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
+    """An effect's buffers and its oracles', in radiance, summed over its terms and lights: (n, H, W, 3) each.
+
+    A visibility is weighted with the exact unshadowed radiance: where nothing arrives a wrong shadow costs nothing.
+    """
+    tested = np.zeros_like(exact.emission, dtype=np.float64)
+    truth = np.zeros_like(tested)
+
+    def captured(find: Callable[[Capture], np.ndarray]) -> np.ndarray:
+        return np.stack([find(capture) for capture in captures])
+
+    def add(step: Step, term: str) -> None:
+        nonlocal tested, truth
+        light = step.light
+        if term == "direct" and light is not None:
+            tested += captured(lambda c: c.direct[light])
+            truth += exact.direct[light]
+        elif term == "visibility" and light is not None:
+            tested += exact.direct[light] * captured(lambda c: c.visibility[light])
+            truth += exact.shadowed[light]
+        elif term == "environment":
+            tested += captured(lambda c: c.frame["environment"])
+            truth += exact.environment
+        elif term == "environment_visibility":
+            tested += exact.environment * captured(lambda c: c.frame["environment_visibility"])
+            truth += exact.environment_shadowed
+        elif term == "indirect":
+            tested += captured(lambda c: c.frame["indirect"])
+            truth += exact.indirect
+
+    for step in plan.steps:
+        if step.effect == name:
+            for term in step.writes:
+                add(step, term)
+    return tested.astype(np.float32), truth.astype(np.float32)
+
+
+def display_sides(plan: Plan, reference: list[np.ndarray]) -> dict[str, Sides]:
+    """Tone and encode against their own oracles, on the reference's mean image."""
+    from lightmeter.groundtruth.oracles import encode, tone
+
+    image = np.mean(reference, axis=0, dtype=np.float64) * 2.0**plan.scene.camera.exposure
+    found = {}
+    shown = np.clip(image, 0.0, 1.0)
+    if name := plan.effect_of("tone"):
+        shown = twin(plan, "tone")(image, plan.effects[name][1])
+        found[name] = Sides([shown.astype(np.float32)], [tone.evaluate(image.astype(np.float32))], "display-linear")
+    if name := plan.effect_of("encode"):
+        encoded = twin(plan, "encode")(shown, plan.effects[name][1])
+        found[name] = Sides([encoded.astype(np.float32)], [encode.evaluate(shown).astype(np.float32)], "display")
+    return found
