@@ -18,14 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, ValidationError, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from lightmeter import options
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
-from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.files import read_bytes
-from lightmeter.scenes.validation import Strict, explain
+from lightmeter.scenes.validation import Strict, read_toml
 
 LARGEST = 2**20
 """Bytes of a limits file."""
@@ -120,27 +119,12 @@ def read_limits(path: Path) -> list[Limit]:
     Raises:
         SceneError, UsageError: it is missing, no TOML, or does not follow the schema; the message names the place.
     """
-    file = _parse(read_bytes(path, LARGEST), str(path))
+    file = read_toml(read_bytes(path, LARGEST), LimitsFile, str(path))
     if not file.limit:
         raise UsageError(
             f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max or min"
         )
     return [_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit)]
-
-
-def _parse(data: bytes, where: str) -> LimitsFile:
-    import tomllib
-
-    try:
-        content = tomllib.loads(data.decode("utf-8"))
-    except RecursionError:
-        raise SceneError("this TOML is nested too deeply", where=where) from None
-    except ValueError as error:  # TOMLDecodeError and UnicodeDecodeError are ValueErrors
-        raise SceneError(f"this is no TOML ({str(error)[:200]})", where=where) from None
-    try:
-        return LimitsFile.model_validate(content)
-    except ValidationError as error:
-        raise explain(error, content, where) from None
 
 
 def _limit(entry: LimitEntry, defaults: Setting, place: str) -> Limit:

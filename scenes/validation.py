@@ -1,7 +1,7 @@
 """From pydantic's complaints to one message with a place, a value and a remedy."""
 
 import re
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
@@ -113,3 +113,26 @@ def _written(loc: tuple[int | str, ...], data: object, *, missing: bool) -> tupl
         elif missing and step == len(loc) - 1:
             path.append(part)
     return tuple(path)
+
+
+Table = TypeVar("Table", bound=BaseModel)
+
+
+def read_toml(data: bytes, model: type[Table], where: str) -> Table:
+    """A TOML file's content as `model`.
+
+    Raises:
+        SceneError: it is no TOML, or does not follow the model.
+    """
+    import tomllib
+
+    try:
+        content = tomllib.loads(data.decode("utf-8"))
+    except RecursionError:
+        raise SceneError("this TOML is nested too deeply", where=where) from None
+    except ValueError as error:  # TOMLDecodeError and UnicodeDecodeError are ValueErrors
+        raise SceneError(f"this is no TOML ({str(error)[:200]})", where=where) from None
+    try:
+        return model.model_validate(content)
+    except ValidationError as error:
+        raise explain(error, content, where) from None

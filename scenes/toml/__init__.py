@@ -40,21 +40,7 @@ def parse(data: bytes, where: str):
     Raises:
         SceneError: it is no TOML, or does not follow the schema.
     """
-    import tomllib
-
-    from pydantic import ValidationError
-
-    from lightmeter.scenes.errors import SceneError
     from lightmeter.scenes.toml.entries import SceneFile
-    from lightmeter.scenes.validation import explain
+    from lightmeter.scenes.validation import read_toml
 
-    try:
-        content = tomllib.loads(data.decode("utf-8"))
-    except RecursionError:
-        raise SceneError("this TOML is nested too deeply", where=where) from None
-    except ValueError as error:  # TOMLDecodeError and UnicodeDecodeError are ValueErrors
-        raise SceneError(f"this is no TOML ({str(error)[:200]})", where=where) from None
-    try:
-        return SceneFile.model_validate(content)
-    except ValidationError as error:
-        raise explain(error, content, where) from None
+    return read_toml(data, SceneFile, where)
