@@ -1,6 +1,7 @@
 """The measured frame against the definition: `direct` in float64 at the captured points, and the composition.
 
 The bound is derived in `direct_definition.py`.
+"""
 
 from dataclasses import replace
 
