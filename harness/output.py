@@ -62,12 +62,8 @@ def print_outcome(outcome: Outcome, report: Path, json: bool) -> None:
         sys.stdout.write(to_json(outcome.results))
         print(f"report: {report}", file=sys.stderr)
         return
-    from rich.console import Console
-
     from lightmeter.reports.terminal import comparison
+    from lightmeter.terminal import console
 
-    console = Console()
-    if not console.is_terminal:  # a log has no width of its own
-        console = Console(width=120)
-    console.print(comparison(outcome.results))
+    console().print(comparison(outcome.results))
     print(f"report: {report}")

@@ -67,21 +67,21 @@ def _show(results, report: Path, as_json: bool) -> None:
         sys.stdout.write(to_json(results))
         print(f"report: {report}", file=sys.stderr)
         return
-    from rich.console import Console
     from rich.text import Text
 
     from lightmeter.reports.terminal import metric_table
+    from lightmeter.terminal import console
 
-    console = Console()
-    console.print(Text(f"{results.scene}, {results.size[0]}×{results.size[1]}"))
-    console.print(metric_table(dict(results.frame.metrics)))
+    out = console()
+    out.print(Text(f"{results.scene}, {results.size[0]}×{results.size[1]}"))
+    out.print(metric_table(dict(results.frame.metrics)))
     if results.nonfinite.frame:
         places = ", ".join(f"({x}, {y})" for x, y in results.nonfinite.where["frame"][:4])
         count = results.nonfinite.frame
         noun = "pixel is" if count == 1 else "pixels are"
-        console.print(Text(f"✕ {count} {noun} not finite in the tested image: first at {places}", style="bold red"))
+        out.print(Text(f"✕ {count} {noun} not finite in the tested image: first at {places}", style="bold red"))
     for item in results.left_out:
-        console.print(Text(f"left out: {item.what}: {item.why}"))
+        out.print(Text(f"left out: {item.what}: {item.why}"))
     for note in results.notes:
-        console.print(Text(f"note: {note}"))
+        out.print(Text(f"note: {note}"))
     print(f"report: {report}")

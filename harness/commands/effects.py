@@ -63,8 +63,9 @@ def markdown(effects) -> str:
 
 
 def _list(effects) -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from lightmeter.terminal import console
 
     table = Table(title="Effects", title_justify="left")
     table.add_column("effect", style="bold", no_wrap=True)
@@ -72,26 +73,26 @@ def _list(effects) -> None:
     table.add_column("what it does")
     for effect in effects:
         table.add_row(effect.name, "\n".join(effect.terms), effect.summary)
-    Console().print(table)
+    console().print(table)
 
 
 def _explain(effect) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     from lightmeter.scenes.terms import TERMS
+    from lightmeter.terminal import console
 
-    console = Console()
-    console.print(f"[bold]{effect.name}[/bold]: {effect.summary}\n")
+    out = console()
+    out.print(f"[bold]{effect.name}[/bold]: {effect.summary}\n")
     for term in effect.terms:
-        console.print(f"approximates [bold]{term}[/bold]: {TERMS[term].meaning}")
-    console.print(f"source: {effect.citation}\n")
+        out.print(f"approximates [bold]{term}[/bold]: {TERMS[term].meaning}")
+    out.print(f"source: {effect.citation}\n")
     if not effect.knobs:
-        console.print("It has no knobs.")
+        out.print("It has no knobs.")
         return
     table = Table()
     for column in ("knob", "default", "unit", "range", "what it does"):
         table.add_column(column, no_wrap=column == "knob")
     for knob in effect.knobs:
         table.add_row(knob.name, str(knob.default), knob.unit, knob.range, knob.help)
-    console.print(table)
+    out.print(table)

@@ -104,11 +104,11 @@ def _number(value: float | None) -> float | str | None:
 def _print_verdicts(verdicts) -> None:
     """A row per limit, then the sums."""
     from rich import box
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     from lightmeter.reports.significant import show_measurement, show_number
+    from lightmeter.terminal import console
 
     styles = {"PASS": "green", "FAIL": "bold red", "UNDECIDED": "yellow"}
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
@@ -129,10 +129,10 @@ def _print_verdicts(verdicts) -> None:
             Text(str(verdict.limit)),
             Text(shown),
         )
-    console = Console()
-    console.print(table)
+    out = console()
+    out.print(table)
     counts = [f"{sum(v.status == status for v in verdicts)} {status}" for status in styles]
-    console.print(", ".join(counts), highlight=False)
+    out.print(", ".join(counts), highlight=False)
 
 
 def _file_name(task: str) -> str:

@@ -19,13 +19,14 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps(found, indent=2, ensure_ascii=False))
         return 0
-    from rich.console import Console
     from rich.table import Table
+
+    from lightmeter.terminal import console
 
     table = Table(title="Built-in scenes", title_justify="left")
     table.add_column("scene", style="bold", no_wrap=True)
     table.add_column("what it isolates")
     for item in found:
         table.add_row(item["name"], item["summary"])
-    Console().print(table)
+    console().print(table)
     return 0

@@ -60,17 +60,17 @@ def _show(store, entries: list, title: str, relation: str, as_json: bool) -> Non
         found = {"folder": str(store.folder), "bytes": total, title: [_plain(entry) for entry in entries]}
         print(json.dumps(found, indent=2, ensure_ascii=False))
         return
-    from rich.console import Console
     from rich.text import Text
 
     from lightmeter.quantities import counted, show_bytes
+    from lightmeter.terminal import console
 
-    console = Console()
+    out = console()
     if entries:
-        console.print(_table(entries))
+        out.print(_table(entries))
     batches = sum(entry.batches for entry in entries)
     summary = f"{show_bytes(total)} in {counted(batches, 'file')} of {counted(len(entries), 'series', 'series')} "
-    console.print(Text(f"{summary}{relation} {store.folder}"), soft_wrap=True)
+    out.print(Text(f"{summary}{relation} {store.folder}"), soft_wrap=True)
 
 
 def _table(entries: list):
