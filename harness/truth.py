@@ -124,7 +124,8 @@ class Truth:
             return 0.0
         from lightmeter.groundtruth.primary import seen_emission
 
-        everywhere = seen_emission(self._world, self.size, spp=spp, seed=self.seed + FAMILIES["emission"] + batch)
+        stream = np.random.SeedSequence([self.seed, FAMILIES["emission"], batch]).generate_state(1)[0]
+        everywhere = seen_emission(self._world, self.size, spp=spp, seed=int(stream))
         here = [seen_emission(self._world, self.size, offset + 0.5) for offset in offsets]
         return everywhere - np.mean(here, axis=0, dtype=np.float64)
 

@@ -8,6 +8,7 @@ comes out mid grey at exposure 0 under a filmic tone curve.
 """
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -127,3 +128,11 @@ def default_lights(camera: Camera) -> tuple[tuple[DirectionalLight, ...], Enviro
         return DirectionalLight(name, (float(x), float(y), float(z)), irradiance)
 
     return (light("key", KEY_FROM, KEY), light("fill", FILL_FROM, FILL)), Environment(SURROUND)
+
+
+def rolled(camera: Camera, degrees: float) -> Camera:
+    """The camera turned about its own axis, anticlockwise as seen by itself."""
+    angle = np.radians(degrees)
+    turn = np.eye(4)
+    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return replace(camera, matrix=camera.matrix @ turn)
