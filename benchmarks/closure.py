@@ -77,6 +77,8 @@ PLANS = {
     "torus": Plan(64, 16384, 128, 256, 16),
     "cornell-box": Plan(128, 4096, 64, 1024, 2),
 }
+ROLL = 20.0
+"""Degrees that cameras are rolled about their axis."""
 SEEDS = 1 << 10
 """From a round to the next: some random numbers of a batch are named by the sum of the seed and the batch."""
 
@@ -124,11 +126,7 @@ class Closed:
     seconds: float
 
     @property
-    ROLL = 20.0
-"""Degrees that cameras are rolled about their axis."""
-
-
-def half_width(self) -> float:
+    def half_width(self) -> float:
         """Of the bias' 95 % interval."""
         return half_width(self.bias)
 
