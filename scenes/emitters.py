@@ -82,3 +82,21 @@ def surface_area(scene: Scene) -> float:
         a, b, c = (mesh.positions[mesh.triangles[:, i]].astype(np.float64) for i in range(3))
         total += float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
     return total
+
+
+def enclosure(scene: Scene) -> float:
+    """How much the surfaces face the middle of the scene, 0 (an open plane, a lone object) to 1 (inside a sphere).
+
+    The mean over the area of the cosine between the front and the direction to the middle of the bounding box: a
+    room faces it, a convex body faces away. Light that is sent within an enclosure comes back; in the open it is lost.
+    """
+    middle = (scene.bounds[0] + scene.bounds[1]) / 2
+    facing = total = 0.0
+    for shape in scene.shapes:
+        mesh = shape.world
+        a, b, c = (mesh.positions[mesh.triangles[:, i]].astype(np.float64) for i in range(3))
+        normals, inwards = np.cross(b - a, c - a), middle - (a + b + c) / 3
+        length = np.maximum(np.linalg.norm(inwards, axis=1), 1e-300)
+        facing += float(np.sum(normals * inwards / length[:, None]))
+        total += float(np.linalg.norm(normals, axis=1).sum())
+    return max(0.0, facing / max(total, 1e-300))

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.emitters import flux, surface_area
+from lightmeter.scenes.emitters import enclosure, flux, surface_area
 from lightmeter.scenes.model import Light, Scene
 
 from ...effect import Effect, Knob, Knobs
@@ -17,7 +17,8 @@ def uniforms(scene: Scene, knobs: Knobs, _light: Light | None) -> dict[str, Any]
     mean_irradiance = total / max(surface_area(scene), 1e-300)
     return {
         "environment_radiance": np.array(environment),
-        "indirect_radiance": float(knobs["indirect"]) * mean_irradiance / np.pi,
+        # What an enclosure sends back; in the open most of the flux never meets another surface.
+        "indirect_radiance": float(knobs["indirect"]) * enclosure(scene) * mean_irradiance / np.pi,
     }
 
 
@@ -26,15 +27,17 @@ EFFECT = Effect(
     terms=("environment", "indirect"),
     summary="The environment's radiance, and a share of the lights' flux, arrive alike from every direction.",
     citation="Phong 1975, Illumination for Computer Generated Pictures (ambient term); Cohen et al. 1988, "
-    "A Progressive Refinement Approach to Fast Radiosity Image Generation, section 4 (ambient from flux over area)",
+    "A Progressive Refinement Approach to Fast Radiosity Image Generation, section 4 (ambient from flux over area); "
+    "Karis 2014, Physically Based Shading on Mobile (environment BRDF)",
     knobs=(
         Knob(
             "indirect",
-            0.1,
-            "Irradiance from other surfaces, as a share of the lights' flux over the scene's area.",
+            0.5,
+            "Irradiance from other surfaces: a share of the lights' flux over the scene's area, times how much the "
+            "surfaces face each other (0 in the open, 1 inside a sphere).",
             low=0.0,
             high=10.0,
-            sweep=(0.0, 0.05, 0.1, 0.2, 0.4, 0.8),
+            sweep=(0.0, 0.25, 0.5, 1.0, 2.0),
         ),
     ),
     channels=("position", "normal", "roughness", "base_color", "metallic", "specular"),

@@ -1,17 +1,29 @@
-// Light of one radiance from everywhere: the Lambert base and Fresnel at normal incidence reflect it.
+// Light of one radiance from everywhere, reflected by the Lambert base and by GGX's directional albedo.
 #include "brdf.glsl"
 uniform vec3 environment_radiance;
 uniform vec3 indirect_radiance;
 
-vec3 ambient_albedo(vec3 base_color, float metallic, float specular) {
-    vec3 f0 = reflectance_f0(base_color, metallic, specular);
-    return f0 + (1.0 - f0) * diffuse_color(base_color, metallic);
+// Scale and bias of F0 in GGX's directional albedo: a fit for mobile hardware (Karis 2014, "Physically Based Shading on
+// Mobile"; every constant is its).
+vec2 environment_brdf(float roughness, float n_dot_v) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a004 = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;
+    return vec2(-1.04, 1.04) * a004 + r.zw;
+}
+
+// The share of light from everywhere that is reflected; what the mirror lobe takes the base does not get.
+vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float specular, float n_dot_v) {
+    vec2 brdf = environment_brdf(roughness, n_dot_v);
+    vec3 mirrored = reflectance_f0(base_color, metallic, specular) * brdf.x + reflectance_f90(metallic, specular) * brdf.y;
+    return mirrored + (1.0 - mirrored) * diffuse_color(base_color, metallic);
 }
 
 vec3 environment(Surface surface) {
-    return environment_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.specular);
+    return environment_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.roughness,
+                                                 surface.specular, dot(surface.normal, surface.view));
 }
 
 vec3 indirect(Surface surface) {
-    return indirect_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.specular);
+    return indirect_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.roughness,
+                                              surface.specular, dot(surface.normal, surface.view));
 }
