@@ -105,6 +105,65 @@ class Closure:
 
 
 @dataclass(frozen=True)
+class Player:
+    """One approximation's part in the frame's error.
+
+    Attributes:
+        name: an effect's name, or that of a term which no effect approximates.
+        terms: what becomes exact with it.
+        approximated: whether it is an effect; else a term that the frame lacks.
+        share: metric ("mse", "flip") to its Shapley share of the frame's error, signed.
+        removed: metric to the error that goes away where it alone is made exact, signed.
+    """
+
+    name: str
+    terms: tuple[str, ...]
+    approximated: bool
+    share: Metrics
+    removed: Metrics
+
+
+@dataclass(frozen=True)
+class Attribution:
+    """How the frame's error is shared out: for each metric total = Σ share + residual.
+
+    Attributes:
+        total: metric to the frame's error.
+        residual: metric to what is left with everything exact.
+        players: in the order they are drawn.
+        subsets: how many sets of exact players were evaluated.
+        exhaustive: all sets were; else permutations were sampled.
+        seconds_per_subset: metric to what one set cost.
+    """
+
+    total: Metrics
+    residual: Metrics
+    players: tuple[Player, ...]
+    subsets: int
+    exhaustive: bool
+    seconds_per_subset: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ObjectError:
+    """How wrong the pixels of one object are.
+
+    Attributes:
+        name: the shape's name; "background" where nothing is seen.
+        material: its material's name.
+        pixels: how many show it.
+        metrics: over those pixels.
+        share: of the frame's squared error, 0 to 1 up to noise.
+    """
+
+    name: str
+    material: str
+    pixels: int
+    metrics: Metrics
+    share: Measurement
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """Something the scene or the plan holds and the comparison does not, and why."""
 
@@ -147,6 +206,8 @@ class Results:
     notes: tuple[str, ...] = ()
     not_approximated: tuple[str, ...] = ()
     passes: tuple[PassTime, ...] = ()
+    attribution: Attribution | None = None
+    objects: tuple[ObjectError, ...] = ()
     schema: int = SCHEMA
 
 
@@ -197,6 +258,8 @@ def from_json(text: str) -> Results:
         notes=top.get("notes", []).texts(),
         not_approximated=top.get("not_approximated", []).texts(),
         passes=tuple(_pass_time(item) for item in top.get("passes", []).items()),
+        attribution=top.get("attribution", None).maybe(_attribution),
+        objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
     )
 
 
@@ -348,6 +411,37 @@ def _pass_time(node: _Node) -> PassTime:
         effect=node.get("effect").text(),
         median=node.get("median").number(),
         mad=node.get("mad").number(),
+    )
+
+
+def _attribution(node: _Node) -> Attribution:
+    return Attribution(
+        total=_metrics(node.get("total")),
+        residual=_metrics(node.get("residual")),
+        players=tuple(_player(item) for item in node.get("players").items()),
+        subsets=node.get("subsets").integer(),
+        exhaustive=node.get("exhaustive").flag(),
+        seconds_per_subset={name: item.number() for name, item in node.get("seconds_per_subset", {}).nodes().items()},
+    )
+
+
+def _player(node: _Node) -> Player:
+    return Player(
+        name=node.get("name").text(),
+        terms=node.get("terms").texts(),
+        approximated=node.get("approximated").flag(),
+        share=_metrics(node.get("share")),
+        removed=_metrics(node.get("removed")),
+    )
+
+
+def _object_error(node: _Node) -> ObjectError:
+    return ObjectError(
+        name=node.get("name").text(),
+        material=node.get("material").text(),
+        pixels=node.get("pixels").integer(),
+        metrics=_metrics(node.get("metrics")),
+        share=_measurement(node.get("share")),
     )
 
 
