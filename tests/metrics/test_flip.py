@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lightmeter.metrics import Comparison, InputError, measure
-from lightmeter.metrics.flip import PIXELS_PER_DEGREE, exposure_range, hdr_flip, ldr_flip
+from lightmeter.metrics.flip import PIXELS_PER_DEGREE, FlipAgainst, exposure_range, hdr_flip, ldr_flip
 
 
 def solid(rgb, size=64):
@@ -257,3 +257,16 @@ def test_mask_selects_pixels_of_the_map():
     mask = rng.random((30, 40)) < 0.3
     found = measure("flip", Comparison(a, b).tested_batches[0], b, mask)
     assert found.value == pytest.approx(ldr_flip(a, b)[mask].mean(dtype=float))
+
+
+@pytest.mark.parametrize("size", [(1, 1), (65, 130), (200, 64)])
+def test_many_images_against_one(size):
+    """Filtering the reference once changes nothing, to the last bit."""
+    rng = np.random.default_rng(4)
+    reference, *images = rng.random((3, *size, 3)).astype(np.float32)
+    images[1][0, 0, 0] = np.nan
+    against = FlipAgainst(reference, 40)
+    for image in images:
+        np.testing.assert_array_equal(against(image), ldr_flip(image, reference, 40))
+    with pytest.raises(InputError, match="differ in size"):
+        against(np.zeros((3, 3, 3)))
