@@ -9,6 +9,7 @@ from lightmeter.progress import Report
 from lightmeter.realtime.display import DISPLAY_TERMS, twin
 from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.points import SurfacePoints
 from lightmeter.stacking import mean_samples, stack_points
 from lightmeter.truth import ExactBatch, Truth
 
@@ -39,13 +40,39 @@ class _Sums:
     truth: list[np.ndarray] = field(default_factory=list)
 
 
-def effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str, Sides]:
-    """Every effect that shades, filters or samples, against its oracle at the frame's own points."""
-    plan, offsets = renderer.plan, some_offsets(renderer.offsets)
-    captures = [renderer.capture(tuple(offset)) for offset in offsets]
-    points = stack_points([capture.points for capture in captures])
-    exact_points = truth.exact_material(points)
-    spp = max(1, truth.reference.spp // len(offsets))
+@dataclass(frozen=True, eq=False)
+class FramePoints:
+    """The frame's own sub-pixel samples.
+
+    Attributes:
+        captures: what the effects gave at each of them.
+        points: (n, H, W), as the G-buffer holds them.
+        exact_points: the same points with unfiltered parameters; `points` itself where the scene has no textures.
+        spp: samples per point of the oracles.
+    """
+
+    captures: list[Capture]
+    points: SurfacePoints
+    exact_points: SurfacePoints
+    spp: int
+
+    @classmethod
+    def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
+        """Captures the frame's samples, at most `MOST_SAMPLES` of them."""
+        offsets = some_offsets(renderer.offsets)
+        captures = [renderer.capture(tuple(offset)) for offset in offsets]
+        points = stack_points([capture.points for capture in captures])
+        return cls(captures, points, truth.exact_material(points), max(1, truth.reference.spp // len(offsets)))
+
+
+def effect_sides(renderer: Renderer, truth: Truth, report: Report, at: FramePoints | None = None) -> dict[str, Sides]:
+    """Every effect that shades, filters or samples, against its oracle at the frame's own points.
+
+    Args:
+        at: the frame's points, where the caller has them.
+    """
+    plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
+    captures, points, exact_points, spp = at.captures, at.points, at.exact_points, at.spp
     shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS}
     sums = {name: _Sums() for name in shading}
     material, coverage = plan.effect_of("material"), plan.effect_of("coverage")

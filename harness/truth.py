@@ -19,6 +19,9 @@ from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.stacking import mean_samples, reshape_points
 
+MEMORY = 1 << 30
+"""Bytes of oracles' batches that are kept in memory for those who ask again."""
+
 
 @dataclass(frozen=True, eq=False)
 class ExactBatch:
@@ -37,6 +40,13 @@ class ExactBatch:
     environment: np.ndarray | None = None
     environment_shadowed: np.ndarray | None = None
     indirect: np.ndarray | None = None
+
+    @property
+    def bytes(self) -> int:
+        """What it takes in memory."""
+        rest = (self.environment, self.environment_shadowed, self.indirect)
+        images = (self.emission, *self.direct.values(), *self.shadowed.values(), *rest)
+        return sum(image.nbytes for image in images if image is not None)
 
     def composition(self) -> np.ndarray:
         """(H, W, 3) float32: the image with every term exact."""
@@ -73,6 +83,8 @@ class Truth:
         self.missing = missing_terms(scene)
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
+        self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
+        self._room = MEMORY
 
     @cached_property
     def _world(self):
@@ -135,8 +147,18 @@ class Truth:
         Args:
             family: names the random numbers, so that different points are given independent ones.
             spp: samples per point.
-            keep: whether the store keeps the oracles one by one.
+            keep: whether the store keeps the oracles one by one, and the memory those that are asked for again.
         """
+        known = self._batches.setdefault(points, {})
+        if (family, batch, spp) in known:
+            return known[family, batch, spp]
+        found = self._make_batch(points, batch, family, spp, keep)
+        if keep and self._room >= found.bytes:
+            self._room -= found.bytes
+            known[family, batch, spp] = found
+        return found
+
+    def _make_batch(self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool) -> ExactBatch:
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
         if "direct" not in self.missing:
