@@ -38,6 +38,10 @@ FRAME_METRICS = (
     "psnr",
     "ssim",
     "flip",
+    "rms_p99",
+    "rms_worst_tile",
+    "flip_p99",
+    "flip_worst_tile",
 )
 COSTLY_METRICS = ("flip_hdr", "delta_e_2000")
 """Of the frame as well, but with their noise floor only: a replicate of these costs a fifth of a second at 512²."""
@@ -119,7 +123,7 @@ def compare(
         closed = closure_batches(renderer, truth, report=report)
     closed = Sides(list(closed), reference.batches)
     whole = Sides([frame.radiance], reference.batches)
-    questions = {_COSTLY: Question(COSTLY_METRICS, whole), _FRAME: Question(FRAME_METRICS, whole, groups=4)}
+    questions = {_COSTLY: Question(COSTLY_METRICS, whole), _FRAME: Question(FRAME_METRICS, whole, bounds=True)}
     questions |= {_CLOSURE: Question(CLOSURE_METRICS, closed)}
     questions |= {name: Question(EFFECT_METRICS, side) for name, side in sides.items()}
     measured = answers(questions, display, report)

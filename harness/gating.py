@@ -167,4 +167,4 @@ def _measurement(outcome: Outcome, limit: Limit) -> Measurement:
         sides = outcome.sides[limit.of]
     if limit.metric in known:
         return known[limit.metric]
-    return answer(Question((limit.metric,), sides, groups=4), outcome.display)[limit.metric]
+    return answer(Question((limit.metric,), sides, bounds=True), outcome.display)[limit.metric]

@@ -29,7 +29,7 @@ from numpy.lib.stride_tricks import as_strided
 from .comparison import Comparison
 from .input_error import InputError
 from .measurement import Measurement
-from .noisy_mean import measure_noisy_mean
+from .noisy_mean import ErrorMap, measure_map
 
 # 0.7 m from a display 0.7 m and 3840 pixels wide: the papers' viewing condition, 67.02 pixels a degree.
 PIXELS_PER_DEGREE = 0.7 * 3840 / 0.7 * math.pi / 180
@@ -244,7 +244,7 @@ def flip(
     comparison: Comparison,
     display: Callable[[np.ndarray], np.ndarray] | None = None,
     pixels_per_degree: float = PIXELS_PER_DEGREE,
-    groups: int = 4,
+    bound: bool = True,
 ) -> Measurement:
     """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal.
 
@@ -252,27 +252,30 @@ def flip(
         comparison: the two sides, scene-linear, or display values where `display` is None.
         display: maps (H, W, 3) scene-linear to sRGB-encoded [0, 1]; put on both sides.
         pixels_per_degree: pixels per degree of the viewer's visual angle.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
 
     Source: Andersson et al. 2020. Reported as `noisy_mean` says.
     """
-    return measure_noisy_mean(
+    return measure_map(
         comparison,
-        lambda t, r: ldr_flip(t, r, pixels_per_degree),
+        flip_error(display, pixels_per_degree),
         how=f"FLIP, {pixels_per_degree:.1f} pixels per degree",
-        display=display,
-        groups=groups,
-        spatial=True,
+        bound=bound,
     )
 
 
-def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, groups: int = 4) -> Measurement:
+def flip_error(display: Callable[[np.ndarray], np.ndarray] | None, pixels_per_degree: float) -> ErrorMap:
+    """LDR-FLIP's map, as the metrics that read it share it."""
+    return ErrorMap(("flip", pixels_per_degree), lambda t, r: ldr_flip(t, r, pixels_per_degree), display, spatial=True)
+
+
+def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, bound: bool = True) -> Measurement:
     """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal.
 
     Args:
         comparison: the two sides, scene-linear.
         pixels_per_degree: pixels per degree of the viewer's visual angle.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
 
     Source: Andersson et al. 2021. Reported as `noisy_mean` says. All replicates use the exposures of the
     full mean: with exposures of their own they would differ by more than their noise.
@@ -280,12 +283,15 @@ def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGRE
     if comparison.unusable(spatial=True):
         return comparison.failure("")
     start, stop = exposure_range(comparison.mean_reference, comparison.mean_tested)
-    return measure_noisy_mean(
+    return measure_map(
         comparison,
-        lambda t, r: hdr_flip(t, r, pixels_per_degree, start, stop).error,
+        ErrorMap(
+            ("flip_hdr", pixels_per_degree),
+            lambda t, r: hdr_flip(t, r, pixels_per_degree, start, stop).error,
+            spatial=True,
+        ),
         how=f"HDR-FLIP, {pixels_per_degree:.1f} pixels per degree, {start:.2f} to {stop:.2f} stops",
-        groups=groups,
-        spatial=True,
+        bound=bound,
     )
 
 
