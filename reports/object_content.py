@@ -1,0 +1,58 @@
+"""Which object holds the error, as the page shows it."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.cells import measured, named
+from lightmeter.reports.metric_words import present
+from lightmeter.reports.percentages import percent_of
+from lightmeter.reports.results import ObjectError
+from lightmeter.reports.signed_bars import Axis
+from lightmeter.reports.significant import show_number
+
+_COLUMNS = ("rmse", "bias", "flip")
+_MOST = 20
+_WHOLE = Measurement(1.0)
+
+
+def object_content(objects: Sequence[ObjectError]) -> dict[str, Any] | None:
+    """The objects by their share of the squared error, the largest first; those after the 20th in one row."""
+    if not objects:
+        return None
+    ordered = by_share(objects)
+    listed, others = ordered[:_MOST], ordered[_MOST:]
+    columns = present(_COLUMNS, [name for one in listed for name in one.metrics])
+    axis = Axis.spanning(one.share for one in listed)
+    return {
+        "columns": [named(name) for name in columns],
+        "rows": [_row(one, columns, axis) for one in listed],
+        "others": _summed(others) if others else None,
+        "compensates": any(one.share.value < 0 for one in listed),
+    }
+
+
+def by_share(objects: Sequence[ObjectError]) -> list[ObjectError]:
+    """The largest share first; one that is not a number before all others, since it is a failure."""
+    return sorted(objects, key=lambda one: -math.inf if math.isnan(one.share.value) else -one.share.value)
+
+
+def _row(one: ObjectError, columns: Sequence[str], axis: Axis) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "material": one.material,
+        "pixels": f"{one.pixels:,}",
+        "cells": [measured(one.metrics[name]) if name in one.metrics else None for name in columns],
+        "share": measured(percent_of(one.share, _WHOLE) or one.share),
+        "bar": axis.bar(one.share),
+    }
+
+
+def _summed(others: Sequence[ObjectError]) -> dict[str, str]:
+    """The rest in one row, without an interval: how their errors go together is not known."""
+    return {
+        "count": str(len(others)),
+        "pixels": f"{sum(one.pixels for one in others):,}",
+        "share": f"{show_number(100 * sum(one.share.value for one in others), 2)} %",
+    }
