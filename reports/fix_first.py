@@ -61,9 +61,7 @@ def _advice(player: Player, removed: Measurement, total: Measurement, metric: st
             "its error makes up for another's."
         )
     elif removed.low is None or removed.high is None or not math.isfinite(removed.value):
-        sentence = (
-            f"What {player.name} adds to the frame's {error} is not known: {show_measurement(shown)} has no interval."
-        )
+        sentence = f"What making {player.name} exact would remove is not known: {show_measurement(shown)}."
     else:
         sentence = f"What making {player.name} exact would remove cannot be told from noise: {show_measurement(shown)}."
     return Advice(player, verdict, shown, sentence)

@@ -4,17 +4,15 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.cells import measured, named
 from lightmeter.reports.metric_words import present
-from lightmeter.reports.percentages import percent_of
+from lightmeter.reports.percentages import in_percent
 from lightmeter.reports.results import ObjectError
 from lightmeter.reports.signed_bars import Axis
 from lightmeter.reports.significant import show_number
 
 _COLUMNS = ("rmse", "bias", "flip")
 _MOST = 20
-_WHOLE = Measurement(1.0)
 
 
 def object_content(objects: Sequence[ObjectError]) -> dict[str, Any] | None:
@@ -29,7 +27,6 @@ def object_content(objects: Sequence[ObjectError]) -> dict[str, Any] | None:
         "columns": [named(name) for name in columns],
         "rows": [_row(one, columns, axis) for one in listed],
         "others": _summed(others) if others else None,
-        "compensates": any(one.share.value < 0 for one in listed),
     }
 
 
@@ -44,7 +41,7 @@ def _row(one: ObjectError, columns: Sequence[str], axis: Axis) -> dict[str, Any]
         "material": one.material,
         "pixels": f"{one.pixels:,}",
         "cells": [measured(one.metrics[name]) if name in one.metrics else None for name in columns],
-        "share": measured(percent_of(one.share, _WHOLE) or one.share),
+        "share": measured(in_percent(one.share)),
         "bar": axis.bar(one.share),
     }
 

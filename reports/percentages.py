@@ -13,7 +13,12 @@ def percent_of(part: Measurement, whole: Measurement) -> Measurement | None:
     """
     if not math.isfinite(whole.value) or whole.value <= 0 or (whole.low is not None and whole.low <= 0):
         return None
-    scale = 100.0 / whole.value
+    return in_percent(part, whole.value)
+
+
+def in_percent(part: Measurement, whole: float = 1.0) -> Measurement:
+    """`part` in percent of a number that is not 0."""
+    scale = 100.0 / whole
     low, high = part.low, part.high
     return Measurement(
         part.value * scale,
