@@ -96,6 +96,8 @@ def test_bars_start_at_0_on_one_axis() -> None:
     }  # fmt: skip
     assert axis.bar(Measurement(1)) == {"start": 20, "width": 10, "zero": 20, "sign": "positive"}
     assert axis.bar(Measurement(math.nan)) is None
+    assert Axis.spanning([Measurement(3, 2, 4)]) == Axis(0, 4)
+    assert Axis.spanning([Measurement(0.0, 0.0, 0.0)]).bar(Measurement(0.0, 0.0, 0.0))
 
 
 def test_shares_and_unexplained_add_up_to_the_whole() -> None:

@@ -237,7 +237,7 @@ def test_a_share_opens_the_map_of_where_it_lies(page: Page, tmp_path: Path) -> N
 
 
 @needs_chromium
-@pytest.mark.parametrize("width", [1400, 480])
+@pytest.mark.parametrize("width", [1400, 400])
 def test_page_is_no_wider_than_the_window(page: Page, tmp_path: Path, width: int) -> None:
     size = {"height": 1000, "deviceScaleFactor": 1, "mobile": False}
     page.send("Emulation.setDeviceMetricsOverride", width=width, **size)
