@@ -47,8 +47,8 @@ def comparison(results: Results) -> Group:
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
     parts += [_reason("left out", item.what, item.why) for item in results.left_out]
     if results.not_approximated:
-        parts.append(_reason("not approximated", ", ".join(results.not_approximated), ""))
-    parts += [_reason("note", note, "") for note in results.notes]
+        parts.append(_reason("not approximated", ", ".join(results.not_approximated)))
+    parts += [_reason("note", note) for note in results.notes]
     return Group(*parts)
 
 
@@ -110,14 +110,15 @@ def _tails(results: Results) -> list[Text]:
     """The frame's percentiles and worst tiles, which a mean would drown."""
     found = {label(name): beside_the_mean(name, results.frame.metrics) for name in TAILS}
     line = "; ".join(f"{name} {tail}" for name, tail in found.items() if tail)
-    return [_reason("frame, beside the mean", line, "")] if line else []
+    return [_reason("frame, beside the mean", line)] if line else []
 
 
 def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
     """The players whose exactness removes most, at most three of them."""
     fixes = [item for item in fix_first(results, attribution, metric) if item.verdict == "fix"]
     named = [f"{item.player.name} {show_measurement(item.removed)}" for item in fixes[:_MOST_FIXES]]
-    return _reason(f"fix first ({error_phrase(metric)} removed)", ", ".join(named) or "nothing stands out of the noise", "")
+    what = ", ".join(named) or "nothing stands out of the noise"
+    return _reason(f"fix first ({error_phrase(metric)} removed)", what)
 
 
 def _worst_object(objects: Sequence[ObjectError]) -> Text:
@@ -125,7 +126,7 @@ def _worst_object(objects: Sequence[ObjectError]) -> Text:
     share = show_measurement(in_percent(worst.share))
     material = f" ({_printable(worst.material)})" if worst.material else ""
     what = f"{_printable(worst.name)}{material} holds {share} of the squared error, on {worst.pixels:,} pixels"
-    return _reason("largest error", what, "")
+    return _reason("largest error", what)
 
 
 def _printable(name: str) -> str:
@@ -196,7 +197,7 @@ def _time(timing: Timing | None) -> Text:
     return Text(" ".join(part for part in (show_value(measured), show_interval(measured)) if part))
 
 
-def _reason(kind: str, what: str, why: str) -> Text:
+def _reason(kind: str, what: str, why: str = "") -> Text:
     from rich.text import Text
 
     return Text.assemble((f"{kind}: ", "dim"), what, (f": {why}" if why else "", "dim"))
