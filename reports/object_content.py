@@ -31,8 +31,16 @@ def object_content(objects: Sequence[ObjectError]) -> dict[str, Any] | None:
 
 
 def by_share(objects: Sequence[ObjectError]) -> list[ObjectError]:
-    """The largest share first; one that is not a number before all others, since it is a failure."""
-    return sorted(objects, key=lambda one: -math.inf if math.isnan(one.share.value) else -one.share.value)
+    """The largest share first; before all others what holds a metric that is not a number, which is a failure.
+
+    Shares that are not numbers come last: the frame has no error to share out, or is itself not a number.
+    """
+
+    def key(one: ObjectError) -> tuple[bool, float]:
+        failed = any(math.isnan(metric.value) for metric in one.metrics.values())
+        return not failed, math.inf if math.isnan(one.share.value) else -one.share.value
+
+    return sorted(objects, key=key)
 
 
 def _row(one: ObjectError, columns: Sequence[str], axis: Axis) -> dict[str, Any]:
@@ -41,15 +49,16 @@ def _row(one: ObjectError, columns: Sequence[str], axis: Axis) -> dict[str, Any]
         "material": one.material,
         "pixels": f"{one.pixels:,}",
         "cells": [measured(one.metrics[name]) if name in one.metrics else None for name in columns],
-        "share": measured(in_percent(one.share)),
+        "share": None if math.isnan(one.share.value) else measured(in_percent(one.share)),
         "bar": axis.bar(one.share),
     }
 
 
 def _summed(others: Sequence[ObjectError]) -> dict[str, str]:
     """The rest in one row, without an interval: how their errors go together is not known."""
+    share = sum(one.share.value for one in others)
     return {
         "count": str(len(others)),
         "pixels": f"{sum(one.pixels for one in others):,}",
-        "share": f"{show_number(100 * sum(one.share.value for one in others), 2)} %",
+        "share": "–" if math.isnan(share) else f"{show_number(100 * share, 2)} %",
     }

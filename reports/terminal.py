@@ -6,7 +6,6 @@ Names come from scene files and drivers, so every cell is plain `Text`: nothing 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -40,8 +39,8 @@ def comparison(results: Results) -> Group:
         parts.append(Text(_nonfinite(results), style="bold red"))
     if results.attribution:
         parts += [_fix_first(results, results.attribution, metric) for metric in results.attribution.total]
-    if results.objects:
-        parts.append(_worst_object(results.objects))
+    if worst := by_share([one for one in results.objects if math.isfinite(one.share.value)]):
+        parts.append(_object(worst[0]))
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
@@ -121,8 +120,7 @@ def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
     return _reason(f"fix first ({error_phrase(metric)} removed)", what)
 
 
-def _worst_object(objects: Sequence[ObjectError]) -> Text:
-    worst = by_share(objects)[0]
+def _object(worst: ObjectError) -> Text:
     share = show_measurement(in_percent(worst.share))
     material = f" ({_printable(worst.material)})" if worst.material else ""
     what = f"{_printable(worst.name)}{material} holds {share} of the squared error, on {worst.pixels:,} pixels"

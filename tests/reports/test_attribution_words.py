@@ -148,11 +148,23 @@ def test_at_most_twenty_objects_are_listed_and_the_rest_is_summed_up() -> None:
 
 
 def test_an_object_that_is_not_a_number_is_not_hidden() -> None:
-    broken = ObjectError("lamp", "", 3, {}, Measurement(math.nan))
+    broken = ObjectError("lamp", "", 3, {"rmse": Measurement(math.nan)}, Measurement(math.nan))
     content = object_content((*make_objects(30), broken))
     assert content
     assert content["rows"][0]["name"] == "lamp"
-    assert content["rows"][0]["share"]["failed"]
+    assert content["rows"][0]["cells"][0]["failed"]
+    assert content["rows"][1]["name"] == "floor"
+
+
+def test_a_frame_without_error_has_no_shares_and_no_worst_object() -> None:
+    """A frame that is right to the last bit has no error to share out: that is no failure."""
+    objects = tuple(dataclasses.replace(one, share=Measurement(math.nan)) for one in make_objects(30))
+    content = object_content(objects)
+    assert content
+    assert [row["share"] for row in content["rows"]] == [None] * 20
+    assert [row["bar"] for row in content["rows"]] == [None] * 20
+    assert content["others"]["share"] == "–"
+    assert not any("largest error" in line for line in printed(dataclasses.replace(make_results(), objects=objects)))
 
 
 def test_nothing_attributed_gives_no_section() -> None:
