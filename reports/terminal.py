@@ -38,8 +38,9 @@ def comparison(results: Results) -> Group:
     if results.nonfinite.total():
         parts.append(Text(_nonfinite(results), style="bold red"))
     if results.attribution:
-        parts += [_fix_first(results, results.attribution, metric) for metric in results.attribution.total]
-    if worst := by_share([one for one in results.objects if math.isfinite(one.share.value)]):
+        totals = results.attribution.total.items()
+        parts += [_fix_first(results, results.attribution, name) for name, total in totals if _finite(total)]
+    if worst := by_share([one for one in results.objects if _finite(one.share)]):
         parts.append(_object(worst[0]))
     if results.closure:
         statement = closure_statement(results.closure)
@@ -149,6 +150,10 @@ def metric_table(metrics: dict[str, Measurement]) -> Table:
 
 def _all_metrics(results: Results) -> list:
     return [results.frame.metrics, *(effect.metrics for effect in results.effects)]
+
+
+def _finite(measurement: Measurement) -> bool:
+    return math.isfinite(measurement.value)
 
 
 def _nonfinite(results: Results) -> str:

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.fix_first import fix_first
+from lightmeter.reports.html import render_report
 from lightmeter.reports.object_content import object_content
 from lightmeter.reports.page_content import page_content
 from lightmeter.reports.percentages import percent_of
@@ -203,6 +204,14 @@ def test_terminal_says_shares_what_to_fix_and_which_object() -> None:
 def test_terminal_recommends_nothing_that_is_noise() -> None:
     results, _ = attributed(TOTAL, a=Measurement(0.4, -0.1, 0.9), b=Measurement(-0.1, -0.2, -0.05))
     assert "fix first (squared error removed): nothing stands out of the noise" in printed(results)
+
+
+def test_a_frame_that_is_not_a_number_is_said_to_be_one() -> None:
+    results, _ = attributed(Measurement(math.nan), a=Measurement(math.nan))
+    page = render_report(results, [])
+    assert page.count("✕ NaN") == 2  # the share and the whole
+    assert "Nothing can be recommended" in page
+    assert not any("fix first" in line for line in printed(results))
 
 
 def test_terminal_has_no_share_column_without_attribution() -> None:
