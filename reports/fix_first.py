@@ -10,9 +10,11 @@ from lightmeter.reports.percentages import percent_of
 from lightmeter.reports.results import Attribution, Player, Results
 from lightmeter.reports.significant import show_measurement, show_number
 
-Verdict = Literal["fix", "unsure", "worse"]
+Verdict = Literal["fix", "unsure", "worse", "exact"]
 
-_ORDER: tuple[Verdict, ...] = ("fix", "unsure", "worse")
+_ORDER: tuple[Verdict, ...] = ("fix", "unsure", "worse", "exact")
+_NOTHING = 5e-4
+"""The fraction of the frame's error below which a player is called exact: it would print as 0.0 %."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +23,7 @@ class Advice:
 
     Attributes:
         verdict: "fix": its interval of removed error is above 0; "worse": below, so that its error makes up for
-            another's; "unsure": it holds 0, or there is none.
+            another's; "unsure": it holds 0, or there is none; "exact": all of it is too small to count.
         removed: in percent of the frame's error where that can be told from 0, else in the metric's unit.
         sentence: says it, with the interval and the milliseconds.
     """
@@ -48,7 +50,7 @@ def fix_first(results: Results, attribution: Attribution, metric: str) -> list[A
 
 
 def _advice(player: Player, removed: Measurement, total: Measurement, metric: str, ms: float | None) -> Advice:
-    verdict = _verdict(removed)
+    verdict = "exact" if _counts_for_nothing(removed, total) else _verdict(removed)
     shown = percent_of(removed, total) or removed
     error = error_phrase(metric)
     if verdict == "fix":
@@ -60,11 +62,18 @@ def _advice(player: Player, removed: Measurement, total: Measurement, metric: st
             f"Making {player.name} exact alone would make the frame worse, by {added} of the frame's {error}: "
             "its error makes up for another's."
         )
+    elif verdict == "exact":
+        sentence = f"{player.name} is as good as exact: less than {100 * _NOTHING:g} % of the frame's {error} is its."
     elif removed.low is None or removed.high is None or not math.isfinite(removed.value):
         sentence = f"What making {player.name} exact would remove is not known: {show_measurement(shown)}."
     else:
         sentence = f"What making {player.name} exact would remove cannot be told from noise: {show_measurement(shown)}."
     return Advice(player, verdict, shown, sentence)
+
+
+def _counts_for_nothing(removed: Measurement, total: Measurement) -> bool:
+    ends = (removed.low, removed.high)
+    return total.value > 0 and all(end is not None and abs(end) < _NOTHING * total.value for end in ends)
 
 
 def _verdict(removed: Measurement) -> Verdict:

@@ -57,6 +57,16 @@ TOTAL = Measurement(0.5, 0.49, 0.51, "W")
             "Making a exact alone would make the frame worse, by 10.0 (6.0 … 12.0) % of the frame's squared error: "
             "its error makes up for another's.",
         ),
+        (
+            Measurement(-1e-4, -2.4e-4, 0.0),
+            "exact",
+            "a is as good as exact: less than 0.05 % of the frame's squared error is its.",
+        ),
+        (
+            Measurement(1e-4, 0.9e-4, 2.6e-4),
+            "fix",
+            "Making a exact would remove 0.020 (0.018 … 0.052) % of the frame's squared error; it takes 20.9 ms.",
+        ),
     ],
 )
 def test_only_what_stands_out_of_noise_is_recommended(removed: Measurement, verdict: str, sentence: str) -> None:
