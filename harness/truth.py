@@ -20,7 +20,6 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples, reshape_points
 
-
 Ratio = tuple[np.ndarray, np.ndarray]
 """A and B of a visibility: radiance with and without its shadow, (n, H, W, 3) each."""
 
