@@ -110,7 +110,7 @@ def test_supersampling_costs_what_the_frame_costs(run):
 
 
 def test_supersampling_is_judged_at_all_its_samples():
-    """The control's error is its outline's: 8 × 8 samples, four times what `effect_sides` looks at, err less than 4 × 4.
+    """The control's error is its outline's: 8 × 8 samples, more than `effect_sides` looks at, err less than 4 × 4.
 
     Where `effect_sides` looks at all, the two agree: the light is punctual, and nothing is left to chance.
     """
