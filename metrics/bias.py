@@ -18,7 +18,7 @@ def bias(comparison: Comparison) -> Measurement:
     if comparison.unusable():
         return comparison.failure(RADIANCE)
     m = comparison.moments
-    return _measured(m.difference_means, np.ones(m.batches), RADIANCE)
+    return _measured(m.difference_means, np.ones(m.batches), RADIANCE, comparison.confidence)
 
 
 def relative_bias(comparison: Comparison) -> Measurement:
@@ -28,14 +28,14 @@ def relative_bias(comparison: Comparison) -> Measurement:
     m = comparison.moments
     if not m.reference_means.mean() > 0:
         return Measurement(math.nan, unit="", how="undefined: the reference is black")
-    return _measured(m.difference_means, m.reference_means, "")
+    return _measured(m.difference_means, m.reference_means, "", comparison.confidence)
 
 
-def _measured(differences: np.ndarray, scales: np.ndarray, unit: str) -> Measurement:
+def _measured(differences: np.ndarray, scales: np.ndarray, unit: str, confidence: float) -> Measurement:
     k = len(differences)
     value = float(differences.sum() / scales.sum())
     if k == 1:
         return Measurement(value, unit=unit, how="one reference image, no interval")
     left_out = (differences.sum() - differences) / (scales.sum() - scales)
-    low, high = mean_interval(value, left_out)
+    low, high = mean_interval(value, left_out, confidence)
     return Measurement(value, low, high, unit, f"mean over {k} batches, jackknife, Student t")

@@ -25,17 +25,21 @@ class Comparison:
         reference: (K, H, W, 3) or K images (H, W, 3): independent batches of equal expectation and variance. A single
             (H, W, 3) image is K = 1: values come without intervals.
         mask: (H, W) boolean, True where pixels count; all when None.
+        confidence: of every interval that a metric gives of this comparison, two-sided, in (0, 1).
 
     Raises:
-        InputError: a shape is wrong, sizes or batch counts differ, the mask is not boolean or empty, or the reference
-            holds a NaN or an infinity inside the mask.
+        InputError: a shape is wrong, sizes or batch counts differ, the mask is not boolean or empty, the confidence
+            is not between 0 and 1, or the reference holds a NaN or an infinity inside the mask.
     """
 
-    def __init__(self, tested: Images, reference: Images, mask: np.ndarray | None = None) -> None:
+    def __init__(
+        self, tested: Images, reference: Images, mask: np.ndarray | None = None, confidence: float = 0.95
+    ) -> None:
         self.reference = _batches(reference, "reference")
         self.tested_batches = _batches(tested, "tested image")
         self.height, self.width = self.reference[0].shape[:2]
         self.mask = mask
+        self.confidence = confidence
         self._reference_checked: np.ndarray | str | None = "not yet"
         if self.tested_batches[0].shape != self.reference[0].shape:
             height, width = self.tested_batches[0].shape[:2]
@@ -51,6 +55,13 @@ class Comparison:
                 expected=f"one tested image, or {len(self.reference)} batches of it as of the reference",
                 actual=str(len(self.tested_batches)),
                 remedy="Leave out the surplus batches: batch k of one side is paired with batch k of the other.",
+            )
+        if not 0 < confidence < 1:
+            raise InputError(
+                "the confidence of an interval is no probability",
+                expected="a number between 0 and 1",
+                actual=str(confidence),
+                remedy="95 % is 0.95.",
             )
         if mask is not None and (mask.shape != (self.height, self.width) or mask.dtype != np.bool_):
             raise InputError(

@@ -1,4 +1,4 @@
-"""95 % confidence intervals from K independent batches.
+"""Two-sided confidence intervals from K independent batches.
 
 Jackknife: Quenouille 1949, Tukey 1958; for U-statistics Arvesen, "Jackknifing U-statistics", 1969. Student's t with
 K − 1 degrees of freedom.
@@ -11,11 +11,14 @@ import numpy as np
 MIN_BATCHES = 4  # an unbiased trace of a squared covariance needs two disjoint pairs
 
 
-def student_t(batches: int) -> float:
-    """The two-sided 95 % quantile of Student's t with batches − 1 degrees of freedom."""
+def student_t(batches: int, confidence: float) -> float:
+    """The two-sided quantile of Student's t with batches − 1 degrees of freedom.
+
+    Taken in the lower tail: near 1, a probability has no digits left for it.
+    """
     from scipy.special import stdtrit
 
-    return float(stdtrit(batches - 1, 0.975))
+    return -float(stdtrit(batches - 1, (1 - confidence) / 2))
 
 
 def jackknife_variance(leave_one_out: np.ndarray) -> float:
@@ -40,13 +43,15 @@ def u_statistic(gram: np.ndarray) -> tuple[float, np.ndarray]:
     return float(total / (k * (k - 1))), left_out
 
 
-def mean_interval(value: float, leave_one_out: np.ndarray) -> tuple[float, float]:
+def mean_interval(value: float, leave_one_out: np.ndarray, confidence: float) -> tuple[float, float]:
     """value ± t · jackknife standard error."""
-    half = student_t(len(leave_one_out)) * math.sqrt(jackknife_variance(leave_one_out))
+    half = student_t(len(leave_one_out), confidence) * math.sqrt(jackknife_variance(leave_one_out))
     return value - half, value + half
 
 
-def squared_norm_interval(value: float, leave_one_out: np.ndarray, gram: np.ndarray) -> tuple[float, float]:
+def squared_norm_interval(
+    value: float, leave_one_out: np.ndarray, gram: np.ndarray, confidence: float
+) -> tuple[float, float]:
     """An interval for a squared error θ = |µ|² that holds near zero as well.
 
     With batches d_k of mean µ and covariance Σ, the U-statistic has the variance
@@ -72,12 +77,13 @@ def squared_norm_interval(value: float, leave_one_out: np.ndarray, gram: np.ndar
         value: the U-statistic, perhaps negative.
         leave_one_out: (K,), the same with each batch left out.
         gram: (K, K) inner products of d_k, in the unit of `value`; K ≥ MIN_BATCHES.
+        confidence: of the two-sided interval, in (0, 1).
 
     Returns:
         (low, high); low may be negative, high is at least 0.
     """
     k = len(gram)
-    t = student_t(k)
+    t = student_t(k, confidence)
     jackknife = jackknife_variance(leave_one_out)
     half = t * math.sqrt(jackknife)
 

@@ -9,8 +9,8 @@ class Measurement:
 
     Attributes:
         value: the estimate, in `unit`.
-        low: lower end of the 95 % confidence interval; None where no interval can be had.
-        high: upper end of the 95 % confidence interval; None where no interval can be had.
+        low: lower end of the interval at the comparison's confidence; None where no interval can be had.
+        high: upper end of that interval; None where no interval can be had.
         unit: the unit as it is printed ("W/sr/m²", "dB", "" for a pure number).
         how: the estimator in a few words ("U-statistic over 8 batches, jackknife, Student t").
         floor: the same metric between two halves of the reference, for metrics that noise biases;

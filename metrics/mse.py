@@ -71,7 +71,7 @@ def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.nda
     left_out = left_out / np.array([scale(m, keep) for keep in keeps])
     if not np.isfinite(left_out).all():
         return Measurement(value, unit=unit, how=f"{how}, no interval: the reference is nearly black")
-    low, high = squared_norm_interval(value, left_out, m.gram / divisor)
+    low, high = squared_norm_interval(value, left_out, m.gram / divisor, comparison.confidence)
     return Measurement(value, low, high, unit, f"{how}, jackknife, Student t")
 
 

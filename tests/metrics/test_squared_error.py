@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom
 from scipy.stats import t as student_t
 
-from lightmeter.metrics import Comparison, InputError, measure
+from lightmeter.metrics import METRICS, Comparison, InputError, interval, measure
 from lightmeter.metrics.moments import Moments
 
 RNG = np.random.default_rng
@@ -267,3 +267,41 @@ def test_interval_of_the_bias_is_students():
     half = student_t.ppf(0.975, 4) * means.std(ddof=1) / math.sqrt(5)
     found = measure("bias", TRUTH, batches)
     assert (found.low, found.high) == pytest.approx((means.mean() - half, means.mean() + half), rel=1e-9)
+
+
+def test_students_t_is_the_published():
+    # NIST/SEMATECH e-Handbook, 1.3.6.7.2, three digits.
+    for degrees, confidence, published in ((7, 0.95, 2.365), (7, 0.998, 4.785), (30, 0.99, 2.750)):
+        assert interval.student_t(degrees + 1, confidence) == pytest.approx(published, abs=5e-4)
+
+
+@pytest.mark.parametrize("confidence", [0.95, 1 - 1e-5, 1 - 1e-13])
+def test_students_t_is_exact_far_out(confidence):
+    # One degree of freedom is Cauchy's distribution: its quantile is cot(π · doubt / 2). 1 − confidence is exact.
+    exact = 1 / math.tan(math.pi * (1 - confidence) / 2)
+    assert interval.student_t(2, confidence) == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize("confidence", [0.5, 1 - 1e-5])
+@pytest.mark.parametrize("name", ["bias", "relative_bias"])
+def test_confidence_widens_by_students_quantile(name, confidence):
+    batches = noisy(TRUTH, 8, 0)
+    usual = measure(name, TRUTH, batches)
+    found = METRICS[name].function(Comparison(TRUTH, batches, confidence=confidence))
+    ratio = student_t.isf((1 - confidence) / 2, 7) / student_t.isf(0.025, 7)
+    assert found.high - found.value == pytest.approx(ratio * (usual.high - usual.value), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["mse", "rmse", "nrmse", "relmse"])
+def test_squared_errors_heed_the_confidence(name):
+    # Where the error is far above the noise the interval of the MSE is value ± t · s but for t²λ/K.
+    batches = noisy(TRUTH, 8, 0, noise=1e-3)
+    loose, tight = (METRICS[name].function(Comparison(TRUTH + 1, batches, confidence=c)) for c in (1 - 1e-5, 0.5))
+    ratio = student_t.isf(5e-6, 7) / student_t.isf(0.25, 7)
+    assert loose.high - loose.low == pytest.approx(ratio * (tight.high - tight.low), rel=1e-2)
+
+
+@pytest.mark.parametrize("confidence", [0, 1, -0.5, 95, math.nan])
+def test_confidence_is_checked(confidence):
+    with pytest.raises(InputError, match=r"confidence.*between 0 and 1"):
+        Comparison(TRUTH, TRUTH, confidence=confidence)
