@@ -10,7 +10,7 @@ together. With α_j for each look, the chance of any wrong verdict is at most Σ
 each other (Boole). Group-sequential tests get more from the looks' correlation: Pocock (1977) and O'Brien and Fleming
 (1979) with fixed numbers of looks, Lan and DeMets (1983) by spending α as a function of time. They need the looks'
 joint distribution to be that of a normal walk, which a jackknife with Student's t at 8 batches has not, and at α this
-small they gain little: for ten looks at α = 0.001 Pocock's bound is z = 3.80 against 3.89 here, 5 % of the batches.
+small they gain little: for ten looks at α = 0.001 Pocock's bound is z = 3.65 against 3.72 here, 4 % of the batches.
 
 One side. A limit that holds can only be misjudged by a FAIL, that is by the lower end of an interval exceeding the truth;
 one that does not hold only by a PASS, by the upper end falling short of it. Whatever the truth is, one end alone can do
@@ -207,17 +207,17 @@ def squared_contributions(differences: Sequence[np.ndarray]) -> np.ndarray:
     Args:
         differences: K arrays (N, 3), tested minus reference.
     """
-    d = np.asarray(differences, np.float64)
-    return _centred((d * (d.sum(axis=0) - d)).sum(axis=2))
+    total = np.sum(differences, axis=0)
+    return _centred(np.stack([np.einsum("nc,nc->n", d, total - d) for d in differences]))
 
 
 def linear_contributions(differences: Sequence[np.ndarray]) -> np.ndarray:
     """(K, N): what every pixel of every batch gives to the mean's spread, from K arrays (N, 3)."""
-    return _centred(np.asarray(differences, np.float64).sum(axis=2))
+    return _centred(np.stack([d.sum(axis=1) for d in differences]))
 
 
 def _centred(values: np.ndarray) -> np.ndarray:
-    return values - values.mean(axis=0)
+    return values - values.mean(axis=0, dtype=np.float64)
 
 
 def median_interval(values: Sequence[float], confidence: float) -> Measurement:
