@@ -17,19 +17,18 @@ one that does not hold only by a PASS, by the upper end falling short of it. Wha
 harm, so each may miss with probability α_j: the interval asked for is two-sided at 1 − 2 α_j. A metric judged by its
 magnitude can be misjudged at either end, so it is asked for at 1 − α_j.
 
-Tails. An interval from the spread of what was seen is right while many samples carry that spread. With n alike ones the
-sum is like a Poisson count's: its skewness is 1/√n, and by the first term of Cornish and Fisher's expansion the end of a
-studentised interval moves out by (2 z² + 1)/(6 √n) standard errors (Johnson 1978; Hall 1992). `effective_count` measures
-n, and `widened` moves both ends; no skewness that is compatible with n can be larger, since (Σc³)² ≤ Σc² Σc⁴. Below
-`LEAST_COUNT` the expansion itself says nothing, and no verdict is given: an estimate whose spread a few fireflies carry
-is not one to fail a build with. That is the idea of looking at the largest weights before trusting a Monte Carlo mean
-(Koopman, Shephard and Creal 2009; Vehtari, Simpson, Gelman, Yao and Gabry 2024), with a count in place of a tail index.
-Rare samples that have not been drawn yet cannot be detected by anyone.
+Tails. An interval from the spread of what was seen is right while many samples carry that spread. `effective_count` says
+how many do: n alike ones count as n, whatever else there is. Below `LEAST_COUNT` there is no verdict, since an estimate
+whose spread a few fireflies carry is nothing to fail a build with: a sum of so few is as skewed as a Poisson count, whose
+skewness is 1/√n, and the expansion that lengthens the interval for skewness (`interval.mean_interval`) has its next terms
+of the order of 1/n. It is the idea of looking at the largest weights before trusting a Monte Carlo mean (Koopman,
+Shephard and Creal 2009; Vehtari, Simpson, Gelman, Yao and Gabry 2024), with a count in place of a tail index. Rare samples
+that have not been drawn yet cannot be detected by anyone: against them there is only a minimum of samples.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -167,22 +166,8 @@ def look(bound: Bound, alpha: float, measure: Callable[[float], Measurement], co
     found = measure(1.0 - (1.0 if bound.magnitude else 2.0) * alpha)
     if found.low is None or found.high is None:
         return Look("open", found, count)
-    found = widened(found, count, alpha)
-    if count < LEAST_COUNT:
-        return Look("open", found, count)
-    return Look(bound.side(found.low, found.high), found, count)
-
-
-def widened(measurement: Measurement, count: float, alpha: float) -> Measurement:
-    """The measurement with both ends moved out by what `count` samples may hide in skewness."""
-    from scipy.special import ndtri
-
-    z = -float(ndtri(alpha))
-    half = (measurement.high - measurement.low) / 2
-    more = half * (2 * z * z + 1) / (6 * z * math.sqrt(count)) if count > 0 else math.inf
-    if not more > 0:
-        return measurement
-    return replace(measurement, low=measurement.low - more, high=measurement.high + more)
+    side = bound.side(found.low, found.high) if count >= LEAST_COUNT else "open"
+    return Look(side, found, count)
 
 
 def effective_count(contributions: np.ndarray) -> float:
