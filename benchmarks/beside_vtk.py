@@ -19,7 +19,8 @@ from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
 from lightmeter.realtime.graph import Choice, compile_plan
-from lightmeter.realtime.renderer import Renderer, Times
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.realtime.timing import Times
 from lightmeter.scenes.load import load
 from lightmeter.truth import Truth
 

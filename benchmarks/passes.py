@@ -5,7 +5,8 @@ from figures import Figure
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.graph import compile_plan
-from lightmeter.realtime.renderer import Renderer, Times
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.realtime.timing import Times
 from lightmeter.scenes.load import load
 
 SCENES = ("cornell-box", "grid-sun", "posts")

@@ -18,8 +18,8 @@ from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
 from lightmeter.realtime.graph import Choice, Plan, compile_plan
-from lightmeter.realtime.renderer import Frame, Renderer, Times
-from lightmeter.realtime.timing import Time
+from lightmeter.realtime.renderer import Frame, Renderer
+from lightmeter.realtime.timing import Time, Times
 from lightmeter.reports import results as outcome
 from lightmeter.scenes.model import Scene
 from lightmeter.sides import MOST_SAMPLES, Sides, display_sides, effect_sides
@@ -163,6 +163,7 @@ def _nonfinite(frame: Frame, sides: dict[str, Sides]) -> outcome.NonFinite:
 
 def _notes(renderer: Renderer, times: Times) -> tuple[str, ...]:
     notes = [f"Times are {times.method}, the median of {times.frame.frames} frames."]
+    notes += [times.doubt] if times.doubt else []
     if len(renderer.offsets) > MOST_SAMPLES:
         notes.append(
             f"The frame has {len(renderer.offsets)} samples a pixel; its effects are held against their oracles at "

@@ -1,6 +1,6 @@
 """What each effect made, beside what its oracle says at the same points."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +9,7 @@ from lightmeter.progress import Report
 from lightmeter.realtime.display import DISPLAY_TERMS, twin
 from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples, stack_points
 from lightmeter.truth import ExactBatch, Truth
 
@@ -39,22 +40,31 @@ class _Sums:
     truth: list[np.ndarray] = field(default_factory=list)
 
 
-def effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str, Sides]:
-    """Every effect that shades, filters or samples, against its oracle at the frame's own points."""
+def effect_sides(
+    renderer: Renderer, truth: Truth, report: Report, only: Collection[str] | None = None
+) -> dict[str, Sides]:
+    """Every effect that shades, filters or samples, against its oracle at the frame's own points.
+
+    Args:
+        only: just these effects, and no oracle that they do not need.
+    """
     plan, offsets = renderer.plan, some_offsets(renderer.offsets)
+    wanted = set(plan.effects if only is None else only)
     captures = [renderer.capture(tuple(offset)) for offset in offsets]
     points = stack_points([capture.points for capture in captures])
-    exact_points = truth.exact_material(points)
     spp = max(1, truth.reference.spp // len(offsets))
-    shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS}
+    shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS} & wanted
     sums = {name: _Sums() for name in shading}
-    material, coverage = plan.effect_of("material"), plan.effect_of("coverage")
+    material, coverage = (name if name in wanted else None for name in map(plan.effect_of, ("material", "coverage")))
     for name in (material, coverage):
         if name is not None:
             sums[name] = _Sums()
+    composed = material is not None or coverage is not None
+    terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
+    exact_points = truth.exact_material(points) if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
-        at_frame = truth.batch(points, batch, "frame", spp)
+        at_frame = truth.batch(points, batch, "frame", spp, terms=terms)
         for name in shading:
             tested, exact = _contribution(plan, name, captures, at_frame)
             sums[name].tested.append(mean_samples(tested))
@@ -70,6 +80,28 @@ def effect_sides(renderer: Renderer, truth: Truth, report: Report) -> dict[str, 
     if coverage is not None:
         sums[coverage].truth = truth.reference.batches
     return {name: Sides(s.tested, s.truth) for name, s in sums.items()}
+
+
+def coverage_sides(renderer: Renderer, truth: Truth, report: Report) -> Sides:
+    """The frame's sub-pixel samples, all of them, with every other term exact, against the reference.
+
+    `effect_sides` takes some of them, which is enough for a picture; a sweep compares numbers of samples.
+    """
+    offsets = renderer.offsets
+    spp = max(1, truth.reference.spp // len(offsets))
+    parts = np.array_split(offsets, -(-len(offsets) // MOST_SAMPLES))
+    tested = [np.zeros((*truth.size[::-1], 3)) for _ in range(truth.batches)]
+    for number, part in enumerate(parts):
+        points = truth.exact_material(
+            stack_points([renderer.capture(tuple(offset), terms=False).points for offset in part])
+        )
+        for batch, image in enumerate(tested):
+            report("oracles at the frame's points", number * len(tested) + batch, len(parts) * len(tested))
+            # Each part has random numbers of its own.
+            exact = truth.batch(points, batch * len(parts) + number, "exact material", spp)
+            image += exact.composition() * (len(part) / len(offsets))
+    report("oracles at the frame's points", 1, 1)
+    return Sides([image.astype(np.float32) for image in tested], list(truth.reference.batches))
 
 
 def some_offsets(offsets: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """The exact side of a comparison: the reference's batches and the oracles, made when asked for, or recalled."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,12 @@ from lightmeter.progress import Report, silent
 from lightmeter.scenes.features import missing_terms
 from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
+from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples, reshape_points
+
+
+Ratio = tuple[np.ndarray, np.ndarray]
+"""A and B of a visibility: radiance with and without its shadow, (n, H, W, 3) each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +78,7 @@ class Truth:
         self.missing = missing_terms(scene)
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
+        self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
 
     @cached_property
     def _world(self):
@@ -129,36 +135,58 @@ class Truth:
         here = [seen_emission(self._world, self.size, offset + 0.5) for offset in offsets]
         return everywhere - np.mean(here, axis=0, dtype=np.float64)
 
-    def batch(self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool = True) -> ExactBatch:
+    def path_traced(self, spp: int, number: int) -> np.ndarray:
+        """(H, W, 3): an image by the reference's path tracer, independent of the reference and of other numbers."""
+        from lightmeter.groundtruth.reference import render_batch
+
+        return render_batch(self._world, self.size, spp, self.seed, BEYOND_BATCHES + number)
+
+    def batch(
+        self,
+        points: SurfacePoints,
+        batch: int,
+        family: str,
+        spp: int,
+        keep: bool = True,
+        terms: Collection[str] = tuple(TERMS),
+    ) -> ExactBatch:
         """One batch of every term at stacked points.
 
         Args:
             family: names the random numbers, so that different points are given independent ones.
             spp: samples per point.
             keep: whether the store keeps the oracles one by one.
+            terms: those that are wanted; the others cost nothing and are missing from the batch.
         """
+        there = set(terms) - set(self.missing)
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
-        if "direct" not in self.missing:
+        if there & {"direct", "visibility"}:
             for light in range(len(self.scene.all_lights)):
                 shadowed[light], direct[light] = self._light(points, light, options)
-        if "environment" not in self.missing:
+        if there & {"environment", "environment_visibility"}:
             rest["environment_shadowed"], rest["environment"] = self._environment(points, options)
-        if "indirect" not in self.missing:
+        if "indirect" in there:
             rest["indirect"] = self._oracle("indirect", points, **options)
         return ExactBatch(points.emission, direct, shadowed, **rest)
 
-    def _light(self, points: SurfacePoints, light: int, options: dict) -> tuple[np.ndarray, np.ndarray]:
-        """A and B of a light. Punctual lights are exact: every batch is the same."""
-        if not isinstance(self.scene.all_lights[light], AreaLight):
-            options = {**options, "spp": 1, "seed": 0, "batch": 0}
+    def _light(self, points: SurfacePoints, light: int, options: dict) -> Ratio:
+        """A and B of a light. Punctual lights are exact: every batch is the same, and asked for once."""
+        if isinstance(self.scene.all_lights[light], AreaLight):
+            return self._ratio(points, light, options)
+        known = self._punctual.setdefault(points, {})
+        if light not in known:
+            known[light] = self._ratio(points, light, {**options, "spp": 1, "seed": 0, "batch": 0})
+        return known[light]
+
+    def _ratio(self, points: SurfacePoints, light: int, options: dict) -> Ratio:
         if "visibility" in self.missing:
             unshadowed = self._oracle("direct", points, light=light, **options)
             return unshadowed, unshadowed
         both = self._oracle("visibility", points, light=light, **options)
         return both[0], both[1]
 
-    def _environment(self, points: SurfacePoints, options: dict) -> tuple[np.ndarray, np.ndarray]:
+    def _environment(self, points: SurfacePoints, options: dict) -> Ratio:
         if "environment_visibility" in self.missing:
             unoccluded = self._oracle("environment", points, **options)
             return unoccluded, unoccluded
@@ -193,3 +221,6 @@ class Truth:
 
 FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000, "emission": 0x40000}
 """What is added to the seed for each set of points."""
+
+BEYOND_BATCHES = 1 << 30
+"""From here on batches of the path tracer's stream are no reference's."""

@@ -140,9 +140,18 @@ class Effect:
         Raises:
             EffectError: for a knob that this effect does not have, or a value that it does not take.
         """
-        known = {knob.name: knob for knob in self.knobs}
         for name in given:
-            if name not in known:
-                hint = nearest(name, list(known)) if known else "it has no knobs"
-                raise EffectError(f"effect {self.name!r} has no knob {name!r}; {hint}")
-        return {n: k.read(given[n], self.name) if n in given else k.default for n, k in known.items()}
+            self.knob(name)
+        return {k.name: k.read(given[k.name], self.name) if k.name in given else k.default for k in self.knobs}
+
+    def knob(self, name: str) -> Knob:
+        """The knob of that name.
+
+        Raises:
+            EffectError: where there is none; names the nearest.
+        """
+        known = {knob.name: knob for knob in self.knobs}
+        if name not in known:
+            hint = nearest(name, list(known)) if known else "it has no knobs"
+            raise EffectError(f"effect {self.name!r} has no knob {name!r}; {hint}")
+        return known[name]

@@ -17,7 +17,7 @@ from .graph import Plan, Step
 from .projection import viewer
 from .shading import VISIBILITIES, ShadingPass
 from .stage import Stage
-from .timing import Clock, Time
+from .timing import Clock, Recording, Times, summarise
 
 CENTRE = np.zeros((1, 2))
 
@@ -33,28 +33,6 @@ class Frame:
 
     radiance: np.ndarray
     display: np.ndarray | None
-
-
-@dataclass(frozen=True, eq=False)
-class Times:
-    """What the frame costs.
-
-    Attributes:
-        frame: the whole frame, undisturbed.
-        passes: (pass, effect, time); the G-buffer belongs to no effect ("").
-        method: how it was timed.
-    """
-
-    frame: Time
-    passes: tuple[tuple[str, str, Time], ...]
-    method: str
-
-    def of(self, effect: str) -> Time | None:
-        """An effect's passes together; spreads are added, which can only overstate them."""
-        found = [time for _, name, time in self.passes if name == effect]
-        if not found:
-            return None
-        return Time(sum(t.median for t in found), sum(t.mad for t in found), found[0].frames)
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,21 +156,20 @@ class Renderer:
 
     def measure(self, frames: int = 20, warm_up: int = 3) -> Times:
         """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""
+        return summarise([self.record(frames, warm_up)])
+
+    def record(self, frames: int, warm_up: int) -> Recording:
+        """Single times of `frames` frames after `warm_up`: of the whole frame, then of its passes one by one."""
         clock = Clock(self.device)
         for _ in range(warm_up):
             self.draw()
         whole = [clock.measure(self.draw) for _ in range(frames)]
         actions = self._scene_actions(tuple(self.offsets[0])) + self._display_actions()
-        single: list[list[float]] = [[] for _ in actions]
+        passes: list[tuple[str, str, list[float]]] = [(name, effect, []) for name, effect, _ in actions]
         for _ in range(frames):
-            for times, (_, _, action) in zip(single, actions, strict=True):
+            for (_, _, times), (_, _, action) in zip(passes, actions, strict=True):
                 times.append(clock.measure(action))
-        passes = [(name, effect, Time.of(t)) for (name, effect, _), t in zip(actions, single, strict=True)]
-        if self._sum:
-            # What the further samples cost is the whole less one sample's passes and the display's.
-            rest = max(0.0, Time.of(whole).median - sum(t.median for _, _, t in passes))
-            passes.append((f"{self._coverage} · further samples", self._coverage, Time(rest, 0.0, frames)))
-        return Times(Time.of(whole), tuple(passes), clock.method)
+        return Recording(whole, passes, self._coverage if self._sum else "", clock.method, clock.disagreement)
 
     def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
         """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""

@@ -1,7 +1,7 @@
 """Times of passes and frames (design, section 5)."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,10 +18,82 @@ class Time:
     frames: int
 
     @classmethod
-    def of(cls, milliseconds: list[float]) -> "Time":
+    def of(cls, milliseconds: Sequence[float]) -> "Time":
         """The summary of single times."""
         median = float(np.median(milliseconds))
         return cls(median, float(np.median(np.abs(np.array(milliseconds) - median))), len(milliseconds))
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Single times of one run of frames, in milliseconds.
+
+    Attributes:
+        frame: the whole frame, once per frame.
+        passes: (pass, effect, its times, once per frame).
+        sampling: the effect that draws the frame more than once; "" where it is drawn once.
+        method: how it was timed.
+        disagreement: see `Clock`.
+    """
+
+    frame: list[float]
+    passes: list[tuple[str, str, list[float]]]
+    sampling: str
+    method: str
+    disagreement: float
+
+
+@dataclass(frozen=True, eq=False)
+class Times:
+    """What the frame costs.
+
+    Attributes:
+        frame: the whole frame, undisturbed.
+        passes: (pass, effect, time); the G-buffer belongs to no effect ("").
+        method: how it was timed.
+        disagreement: see `Clock`.
+    """
+
+    frame: Time
+    passes: tuple[tuple[str, str, Time], ...]
+    method: str
+    disagreement: float = 0.0
+
+    def of(self, effect: str) -> Time | None:
+        """An effect's passes together; spreads are added, which can only overstate them."""
+        found = [time for _, name, time in self.passes if name == effect]
+        if not found:
+            return None
+        return Time(sum(t.median for t in found), sum(t.mad for t in found), found[0].frames)
+
+    @property
+    def doubt(self) -> str:
+        """Why the times may be wrong, a sentence; "" where nothing speaks against them."""
+        if self.disagreement <= CREDIBLE:
+            return ""
+        return (
+            f"Timer queries claimed up to {self.disagreement:.1f} times the wall time that had passed, which cannot "
+            "be: this driver's times are not to be trusted."
+        )
+
+
+CREDIBLE = 1.05
+"""A query's time over the wall time around it, at most: both clocks tick in steps."""
+
+
+def summarise(recordings: Sequence[Recording]) -> Times:
+    """The summary of one plan's runs of frames, as if they had been one."""
+    first = recordings[0]
+    whole = Time.of([t for recording in recordings for t in recording.frame])
+    passes = [
+        (name, effect, Time.of([t for recording in recordings for t in recording.passes[index][2]]))
+        for index, (name, effect, _) in enumerate(first.passes)
+    ]
+    if first.sampling:
+        # What the further samples cost is the whole less one sample's passes and the display's.
+        rest = max(0.0, whole.median - sum(t.median for _, _, t in passes))
+        passes.append((f"{first.sampling} · further samples", first.sampling, Time(rest, 0.0, whole.frames)))
+    return Times(whole, tuple(passes), first.method, max(recording.disagreement for recording in recordings))
 
 
 class Clock:

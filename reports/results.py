@@ -211,12 +211,12 @@ class Results:
     schema: int = SCHEMA
 
 
-def to_json(results: Results) -> str:
-    """The document as strict JSON text, UTF-8, keys in the order of the classes, with a final line break."""
+def to_json(results: Any) -> str:
+    """The document (a `Results`, or another dataclass of numbers) as strict JSON text, UTF-8, keys in the order of the classes, with a final line break."""
     return json.dumps(_plain(results), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def write_json(path: str | os.PathLike[str], results: Results) -> Path:
+def write_json(path: str | os.PathLike[str], results: Any) -> Path:
     """Write `to_json(results)` in one step: a reader sees the old file or the whole new one."""
     target = Path(path)
     partial = target.with_name(f".{target.name}.{os.getpid()}.part")

@@ -8,7 +8,7 @@ import pytest
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.graph import Choice
 from lightmeter.realtime.shaders import source
-from lightmeter.realtime.timing import Clock, Time
+from lightmeter.realtime.timing import Clock, Recording, Time, summarise
 from lightmeter.scenes import shapes
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, Material, Shape, Texture
@@ -98,16 +98,8 @@ def test_supersampling_draws_the_scene_once_per_sample():
     assert four[2] == 4 * (one[2] - 2 + 1) + 2
 
 
-def test_on_a_software_rasteriser_time_is_wall_time_around_finish(device):
-    if not device.software:
-        pytest.skip("the rasteriser is hardware")
-    assert Clock(device).method == "wall time around glFinish"
-
-
-def test_a_timer_query_is_wrong_on_a_software_rasteriser(device):
-    """Within one run: the query ends when a pass is recorded, and the work follows at glFinish."""
-    if not device.software:
-        pytest.skip("the rasteriser is hardware")
+def heavy_pass(device):
+    """A draw whose fragments take long, whatever the device."""
     text = (
         "out vec4 c; void main() { float x = gl_FragCoord.x; for (int i = 0; i < 200; ++i) x = sin(x); c = vec4(x); }"
     )
@@ -115,17 +107,78 @@ def test_a_timer_query_is_wrong_on_a_software_rasteriser(device):
     target, vertices = device.framebuffer([device.target((512, 512))]), device.fullscreen(program)
     target.use()
     device.gl.enable_only(device.gl.NOTHING)
-    wall, queried = [], []
-    for _ in range(5):
+    return lambda: device.draw(vertices, 3)
+
+
+def test_the_software_rasteriser_s_rule_is_needed_and_applied(device):
+    """A timer query ends when a pass is recorded, and the work follows at glFinish; the clock sees the work.
+
+    All three are of the same pass in the same run: wall time around draw and glFinish as measured here, the query inside
+    it, and what the clock says. The clock's median must be most of the wall time's, the query's a small part of it.
+    """
+    if not device.software:
+        pytest.skip("the rasteriser is hardware")
+    draw, clock = heavy_pass(device), Clock(device)
+    wall, queried, clocked = [], [], []
+    draw()
+    for _ in range(9):
         device.finish()
         query = device.gl.query(time=True)
         start = time.perf_counter()
         with query:
-            device.draw(vertices, 3)
+            draw()
         device.finish()
         wall.append(time.perf_counter() - start)
         queried.append(query.elapsed * 1e-9)
+        clocked.append(clock.measure(draw) * 1e-3)
     assert np.median(queried) < 0.2 * np.median(wall)
+    assert np.median(clocked) > 0.5 * np.median(wall)
+    assert clock.method == "wall time around glFinish"
+
+
+class Hardware:
+    """A device whose timer query says that `claimed` nanoseconds passed."""
+
+    software = False
+
+    def __init__(self, claimed: float) -> None:
+        self.elapsed = claimed
+        self.gl = self
+
+    def query(self, time: bool):
+        return self
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        return None
+
+    def finish(self) -> None:
+        """Nothing is ever under way."""
+
+
+@pytest.mark.parametrize(("claimed", "doubted"), [(1e5, False), (1e8, True)])
+def test_a_timer_query_that_exceeds_wall_time_is_doubted(claimed, doubted):
+    """A pass of 2 ms; a query of 0.1 ms may be right (the driver was slow), one of 100 ms cannot be."""
+    clock = Clock(Hardware(claimed))
+    assert clock.measure(lambda: time.sleep(0.002)) == claimed * 1e-6
+    times = summarise([Recording([1.0], [], "", clock.method, clock.disagreement)])
+    assert times.method == "timer query"
+    assert bool(times.doubt) == doubted
+
+
+def test_runs_of_frames_are_summarised_as_one():
+    """Two lights of one name are two passes; what further samples cost is the frame less one sample's passes."""
+    runs = [
+        Recording([10.0, 12.0], [("s · sun", "s", [1.0, 1.0]), ("s · sun", "s", [2.0, 2.0])], "msaa", "m", 0.2),
+        Recording([11.0], [("s · sun", "s", [4.0]), ("s · sun", "s", [3.0])], "msaa", "m", 0.5),
+    ]
+    times = summarise(runs)
+    assert times.frame == Time(11.0, 1.0, 3)
+    assert times.of("s") == Time(1.0 + 2.0, 0.0, 3)
+    assert times.of("msaa") == Time(11.0 - 3.0, 0.0, 3)
+    assert times.disagreement == 0.5
 
 
 def test_passes_are_timed_by_name_and_add_up_to_about_the_frame(device):

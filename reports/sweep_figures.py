@@ -1,0 +1,206 @@
+"""A sweep's plots, as plotly's figures: error against time on logarithmic axes."""
+
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
+
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.metric_words import label
+from lightmeter.reports.significant import show_measurement, show_number
+from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Setting, SweptEffect, curve_of, show_knob
+from lightmeter.reports.sweep_table import crossing, show_time
+
+# Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
+# symbol of its own beside its colour.
+GROUP_COLOURS = ("#0072B2", "#E69F00", "#009E73", "#56B4E9", "#CC79A7")
+GROUP_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "star")
+PATH_TRACER = "#D55E00"
+INK = "ink"
+"""Stands for the page's text colour, dark or light."""
+
+
+def figure(swept: SweptEffect, curve: Sequence[CurvePoint], view: str, metric: str) -> dict[str, Any]:
+    """One plot, as JSON for plotly: settings, their front, the path tracer's curve and the crossovers."""
+    listed = [s for s in swept.settings if math.isfinite(s.standing(view).metrics[metric].value)]
+    comparable = view == "frame" or swept.comparable
+    points = list(curve) if comparable else []
+    values = [s.standing(view).metrics[metric].value for s in listed] + [p.metrics[metric].value for p in points]
+    floor = 0.5 * min((v for v in values if v > 0), default=1.0)
+    traces = _settings(listed, view, metric, floor)
+    traces += [_front(listed, view, metric, floor), _current(listed, view, metric, floor)]
+    if points:
+        traces += [_curve(points, metric, floor), *_crossovers(listed, view, metric, floor)]
+    unit = next((s.standing(view).metrics[metric].unit for s in listed), "")
+    of = swept.effect if view == "effect" else "the frame"
+    time = swept.own_time if view == "effect" else "the frame"
+    layout = {
+        "xaxis": {"type": "log", "title": {"text": f"time of {time}, ms"}},
+        "yaxis": {"type": "log", "title": {"text": f"{label(metric)} of {of}" + (f", {unit}" if unit else "")}},
+    }
+    return {"data": [trace for trace in traces if trace["x"]], "layout": layout}
+
+
+def groups(settings: Sequence[Setting]) -> dict[str, list[Setting]]:
+    """Settings that belong on one line: of a knob each; of a grid, those that share the value of its shortest knob."""
+    varied = [s.varied for s in settings if s.varied]
+    names = list(dict.fromkeys(varied))
+    if len(names) == 1 and len(names[0]) > 1:
+        shortest = min(names[0], key=lambda knob: len({s.knobs[knob] for s in settings}))
+        keys = [f"{shortest} {show_knob(s.knobs[shortest])}" for s in settings]
+        return {key: [s for s, k in zip(settings, keys, strict=True) if k == key] for key in dict.fromkeys(keys)}
+    found = {}
+    for name in names:
+        members = [s for s in settings if s.varied in (name, ())]
+        if all(isinstance(s.knobs[name[0]], (int, float)) for s in members):
+            members.sort(key=lambda s: s.knobs[name[0]])
+        found[name[0]] = members
+    return found or {"setting": list(settings)}
+
+
+def _settings(listed: Sequence[Setting], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
+    traces = []
+    for index, (name, members) in enumerate(groups(listed).items()):
+        colour = GROUP_COLOURS[index % len(GROUP_COLOURS)]
+        symbol = GROUP_SYMBOLS[index % len(GROUP_SYMBOLS)]
+        measured = [s.standing(view).metrics[metric] for s in members]
+        times = [s.standing(view).time_ms for s in members]
+        traces.append(
+            {
+                "name": escape(name),
+                "mode": "lines+markers",
+                "x": [t.median for t in times],
+                "y": [max(m.value, floor) for m in measured],
+                "error_x": _bar([t.mad for t in times], [t.mad for t in times], colour),
+                "error_y": _interval(measured, floor, colour),
+                "line": {"color": colour, "width": 1, "dash": "dot"},
+                "marker": {
+                    "color": colour,
+                    "size": 10,
+                    "symbol": [symbol if m.value > 0 else "triangle-down-open" for m in measured],
+                },
+                "hovertext": [_hover(s, view, metric) for s in members],
+                "hoverinfo": "text",
+            }
+        )
+    return traces
+
+
+def _hover(setting: Setting, view: str, metric: str) -> str:
+    standing = setting.standing(view)
+    measured = standing.metrics[metric]
+    lines = [
+        f"<b>{escape(setting.label)}</b>" + (" (current)" if setting.current and setting.varied else ""),
+        f"{label(metric)} {escape(show_measurement(measured))}",
+        f"{show_time(standing.time_ms)} ms",
+        *(["on the Pareto front"] if standing.front.get(metric) else []),
+    ]
+    if measured.value <= 0:
+        lines.append("drawn at the lower edge: no error beyond the reference's noise")
+    crossed = crossing(standing, metric)
+    return "<br>".join(lines + ([f"the path tracer is as good {crossed}"] if crossed else []))
+
+
+def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
+    """A stair: what is reached at a time stays reached until the next setting of the front is affordable."""
+    on = sorted((s for s in listed if s.standing(view).front.get(metric)), key=lambda s: s.standing(view).time_ms.median)
+    return {
+        "name": "Pareto front",
+        "mode": "lines",
+        "x": [s.standing(view).time_ms.median for s in on],
+        "y": [max(s.standing(view).metrics[metric].value, floor) for s in on],
+        "line": {"shape": "hv", "color": INK, "width": 2},
+        "opacity": 0.55,
+        "hoverinfo": "skip",
+    }
+
+
+def _current(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
+    here = [s.standing(view) for s in listed if s.current]
+    return {
+        "name": "current setting",
+        "mode": "markers",
+        "x": [s.time_ms.median for s in here],
+        "y": [max(s.metrics[metric].value, floor) for s in here],
+        "marker": {"symbol": "circle-open", "size": 19, "color": INK, "line": {"width": 2}},
+        "hoverinfo": "skip",
+    }
+
+
+def _curve(points: Sequence[CurvePoint], metric: str, floor: float) -> dict[str, Any]:
+    measured = [p.metrics[metric] for p in points]
+    spread = [p.time_ms.mad for p in points]
+    return {
+        "name": "path tracer",
+        "mode": "lines+markers",
+        "x": [time for time, _ in curve_of(points, metric)],
+        "y": [max(m.value, floor) for m in measured],
+        "error_x": _bar(spread, spread, PATH_TRACER),
+        "error_y": _interval(measured, floor, PATH_TRACER),
+        "line": {"color": PATH_TRACER, "width": 2},
+        "marker": {"color": PATH_TRACER, "size": 7, "symbol": "cross"},
+        "hovertext": [
+            f"<b>path tracer, {p.spp} spp</b><br>{label(metric)} {escape(show_measurement(p.metrics[metric]))}"
+            f"<br>{show_time(p.time_ms)} ms per image"
+            for p in points
+        ],
+        "hoverinfo": "text",
+    }
+
+
+def _crossovers(listed: Sequence[Setting], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
+    """From each setting of the front to where the path tracer is as good; nothing where the curve does not say."""
+    marks, lines = [], []
+    for setting in listed:
+        standing = setting.standing(view)
+        crossed = standing.path_tracer.get(metric)
+        if crossed is not None and crossed.relation == "=" and standing.front.get(metric):
+            error = max(standing.metrics[metric].value, floor)
+            text = f"the path tracer is as good as <b>{escape(setting.label)}</b><br>after {show_number(crossed.ms)} ms"
+            marks.append((crossed.ms, error, text))
+            lines += [(standing.time_ms.median, error), (crossed.ms, error), (None, None)]
+    return [
+        {
+            "name": "crossover",
+            "mode": "lines",
+            "x": [x for x, _ in lines],
+            "y": [y for _, y in lines],
+            "line": {"color": INK, "width": 1, "dash": "dash"},
+            "opacity": 0.4,
+            "hoverinfo": "skip",
+            "showlegend": False,
+        },
+        {
+            "name": "crossover",
+            "mode": "markers",
+            "x": [x for x, _, _ in marks],
+            "y": [y for _, y, _ in marks],
+            "marker": {"symbol": "x", "size": 11, "color": INK},
+            "hovertext": [text for _, _, text in marks],
+            "hoverinfo": "text",
+        },
+    ]
+
+
+def _interval(measured: Sequence[Measurement], floor: float, colour: str) -> dict[str, Any]:
+    """The intervals as bars; of no length where there is none, and none below the plot's lower edge."""
+    up = [m.high - max(m.value, floor) if m.high is not None else 0.0 for m in measured]
+    down = [max(m.value, floor) - max(m.low, floor / 2) if m.low is not None else 0.0 for m in measured]
+    return _bar([max(0.0, x) for x in up], [max(0.0, x) for x in down], colour)
+
+
+def _bar(plus: Sequence[float], minus: Sequence[float], colour: str) -> dict[str, Any]:
+    return {
+        "type": "data",
+        "symmetric": False,
+        "array": list(plus),
+        "arrayminus": list(minus),
+        "color": colour,
+        "thickness": 1.2,
+        "width": 3,
+    }
+
+
+def figures(swept: SweptEffect, curve: Sequence[CurvePoint], metrics: Sequence[str]) -> Mapping[str, Any]:
+    """View to metric to figure."""
+    return {view: {metric: figure(swept, curve, view, metric) for metric in metrics} for view in VIEWS}

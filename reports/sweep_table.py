@@ -1,0 +1,111 @@
+"""A sweep as tables for the terminal, made of rich's renderables; the caller prints them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.metric_words import label
+from lightmeter.reports.results import Timing
+from lightmeter.reports.significant import show_measurement, show_number, show_value
+from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Standing, Sweep, SweptEffect, best
+
+if TYPE_CHECKING:
+    from rich.console import Group
+    from rich.table import Table
+
+
+def sweep_tables(sweep: Sweep) -> Group:
+    """Two tables per effect, its own error and the frame's; the best setting of each; the path tracer; notes."""
+    from rich.console import Group
+    from rich.text import Text
+
+    parts: list = []
+    for swept in sweep.effects:
+        for view in VIEWS:
+            parts.append(_table(swept, view))
+            parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
+    if sweep.path_tracer:
+        parts.append(_curve(sweep))
+    parts += [Text.assemble(("note: ", "dim"), note) for note in sweep.notes]
+    return Group(*parts)
+
+
+def conclusions(swept: SweptEffect, view: str) -> list[str]:
+    """For each metric a sentence: the best setting, and when the path tracer is as good."""
+    sentences = []
+    for metric in METRICS:
+        setting = best(swept, view, metric)
+        if setting is None:
+            continue
+        standing = setting.standing(view)
+        text = (
+            f"Least {label(metric)}: {show_measurement(standing.metrics[metric])} with {setting.label} in "
+            f"{show_number(standing.time_ms.median)} ms"
+        )
+        crossed = crossing(standing, metric)
+        sentences.append(text + (f"; the path tracer is as good {crossed}." if crossed else "."))
+    return sentences
+
+
+def crossing(standing: Standing, metric: str) -> str:
+    """When the path tracer is as good, in words; "" where that cannot be said."""
+    found = standing.path_tracer.get(metric)
+    return found.words(show_number(found.ms)) if found else ""
+
+
+def show_time(timing: Timing) -> str:
+    """Median and its spread: "2.31 ± 0.04"."""
+    return show_measurement(Measurement(timing.median, timing.median - timing.mad, timing.median + timing.mad))
+
+
+def _table(swept: SweptEffect, view: str) -> Table:
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    what = f"time of {swept.own_time}" if view == "effect" else "the frame's error and time"
+    table = Table(
+        title=Text(f"{swept.effect}: {VIEWS[view]} ({what})"), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False
+    )
+    table.add_column("setting")
+    for metric in METRICS:
+        table.add_column(label(metric), justify="right", no_wrap=True)
+    for column in ("ms", "front", "path tracer (RMSE)"):
+        table.add_column(column, justify="right", no_wrap=True)
+    for setting in swept.settings:
+        table.add_row(*map(Text, _cells(setting, view)), style="bold" if setting.current else "")
+    return table
+
+
+def _cells(setting: Setting, view: str) -> list[str]:
+    standing = setting.standing(view)
+    front = [label(metric) for metric in METRICS if standing.front.get(metric)]
+    return [
+        setting.label,
+        *(_bare(standing.metrics[metric]) for metric in METRICS),
+        show_time(standing.time_ms),
+        ", ".join(front),
+        crossing(standing, "rmse"),
+    ]
+
+
+def _bare(measurement: Measurement) -> str:
+    """Value and interval without the unit."""
+    failed = "✕ " if math.isnan(measurement.value) else ""
+    return failed + show_measurement(replace(measurement, unit=""))
+
+
+def _curve(sweep: Sweep) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title="Path tracer", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in ("spp", *(label(metric) for metric in METRICS), "ms"):
+        table.add_column(column, justify="right", no_wrap=True)
+    for point in sweep.path_tracer:
+        values = (show_value(point.metrics[metric]) for metric in METRICS)
+        table.add_row(str(point.spp), *values, show_time(point.time_ms))
+    return table
