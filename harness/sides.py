@@ -66,7 +66,7 @@ def effect_sides(
         report("oracles at the frame's points", batch, truth.batches)
         at_frame = truth.batch(points, batch, "frame", spp, terms=terms)
         for name in shading:
-            tested, exact = _contribution(plan, name, captures, at_frame)
+            tested, exact = contribution(plan, name, captures, at_frame)
             sums[name].tested.append(mean_samples(tested))
             sums[name].truth.append(mean_samples(exact))
         same = exact_points is points
@@ -111,7 +111,7 @@ def some_offsets(offsets: np.ndarray) -> np.ndarray:
     return offsets[np.linspace(0, len(offsets) - 1, MOST_SAMPLES).round().astype(int)]
 
 
-def _contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
+def contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
     """An effect's buffers and its oracles', in radiance, summed over its terms and lights: (n, H, W, 3) each.
 
     A visibility is weighted with the exact unshadowed radiance: where nothing arrives a wrong shadow costs nothing.

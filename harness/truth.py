@@ -108,6 +108,13 @@ class Truth:
         spp = self.budget.spp_per_batch
         return reference(self.scene, self.size, spp=spp, batches=self.budget.batches, **common)
 
+    def reference_batch(self, batch: int, spp: int) -> np.ndarray:
+        """(H, W, 3): one batch of the reference by its number, without the others."""
+        from lightmeter.groundtruth.batches import one_batch
+
+        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world}
+        return one_batch(self.scene, self.size, spp, batch, **options)
+
     def exact_material(self, points: SurfacePoints) -> SurfacePoints:
         """The same points with unfiltered parameters; the points themselves where the scene has no textures."""
         if "material" in self.missing:
