@@ -13,7 +13,7 @@ from lightmeter.hints import nearest
 from lightmeter.limits import FRAME, TIME_MS, Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
-from lightmeter.metrics.sequential import Bound, Look, error_per_look, look
+from lightmeter.metrics.sequential import LEAST_COUNT, Bound, Look, error_per_look, look
 from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.display import DISPLAY_TERMS
@@ -188,7 +188,8 @@ def _step(work: Work, go_on: Callable[[], bool]) -> None:
     for trial in work.open:
         alpha = trial.alpha / len(subject.looks)
         bound = trial.bound or Bound(math.inf, math.inf)
-        found = look(bound, alpha, lambda c, t=trial: subject.measure(t.limit, c), subject.count(trial.limit))
+        limit = trial.limit
+        found = look(bound, alpha, lambda c, of=limit: subject.measure(of, c), lambda of=limit: subject.count(of))
         trial.looks += 1
         trial.last = found
         if math.isnan(found.measurement.value):
@@ -266,9 +267,10 @@ def _undecided(trial: Trial, work: Work, seconds: float | None) -> Verdict:
     if found is None:
         reason = f"the time budget of {seconds:g} s ended before the first look; give more with --seconds"
         return replace(_bare(trial), message=f"{trial.limit.metric} of {trial.limit.of}: {reason}", reason=reason)
-    if found.heavy:
+    count = work.subject.count(trial.limit)
+    if count < LEAST_COUNT:
         reason = (
-            f"heavy tails: as few as {found.count:.0f} samples carry the spread, so that no interval can be trusted; "
+            f"heavy tails: as few as {count:.0f} samples carry the spread, so that no interval can be trusted; "
             "more samples may help, or a region without the fireflies"
         )
     elif found.measurement.low is None:

@@ -142,32 +142,29 @@ class Look:
     Attributes:
         side: "open" where the verdict has to wait.
         measurement: with the interval that was judged.
-        count: effective number of samples that carry the spread; infinite where there is none.
+        heavy: whether the interval had left the bound, but too few samples carry its spread to trust it.
     """
 
     side: Side
     measurement: Measurement
-    count: float
-
-    @property
-    def heavy(self) -> bool:
-        """Whether too few samples carry the spread for any verdict."""
-        return self.count < LEAST_COUNT
+    heavy: bool = False
 
 
-def look(bound: Bound, alpha: float, measure: Callable[[float], Measurement], count: float) -> Look:
+def look(bound: Bound, alpha: float, measure: Callable[[float], Measurement], count: Callable[[], float]) -> Look:
     """Judge once.
 
     Args:
         alpha: what this look may spend, α_j.
         measure: gives the number with its two-sided interval at a confidence.
-        count: `effective_count` of the samples behind it.
+        count: gives `effective_count` of the samples behind it; called only where there is something to decide.
     """
     found = measure(1.0 - (1.0 if bound.magnitude else 2.0) * alpha)
     if found.low is None or found.high is None:
-        return Look("open", found, count)
-    side = bound.side(found.low, found.high) if count >= LEAST_COUNT else "open"
-    return Look(side, found, count)
+        return Look("open", found)
+    side = bound.side(found.low, found.high)
+    if side != "open" and count() < LEAST_COUNT:
+        return Look("open", found, heavy=True)
+    return Look(side, found)
 
 
 def effective_count(contributions: np.ndarray) -> float:
