@@ -127,10 +127,7 @@ def _errors(
     images: dict[str, np.ndarray], batches: np.ndarray, display: Callable[[np.ndarray], np.ndarray]
 ) -> list[Figure]:
     """Every image's metrics against the same batches and through the same display transform."""
-    found = {
-        name: measure_all(METRICS, Comparison(image, batches), display=display, groups=4)
-        for name, image in images.items()
-    }
+    found = {name: measure_all(METRICS, Comparison(image, batches), display=display) for name, image in images.items()}
     return [
         Figure.of(
             f"{metric} · {name}",

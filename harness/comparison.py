@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from lightmeter.attribution import Shares, attribute
 from lightmeter.closure import closure_batches
 from lightmeter.device import fingerprint
+from lightmeter.families import Families, composition
 from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.finite import find_non_finite
@@ -22,7 +24,8 @@ from lightmeter.realtime.renderer import Frame, Renderer
 from lightmeter.realtime.timing import Time, Times
 from lightmeter.reports import results as outcome
 from lightmeter.scenes.model import Scene
-from lightmeter.sides import MOST_SAMPLES, Sides, display_sides, effect_sides
+from lightmeter.sides import MOST_SAMPLES, FramePoints, Sides, display_sides, effect_sides
+from lightmeter.substitution import players
 from lightmeter.truth import Truth
 
 FRAME_METRICS = (
@@ -35,6 +38,10 @@ FRAME_METRICS = (
     "psnr",
     "ssim",
     "flip",
+    "rms_p99",
+    "rms_worst_tile",
+    "flip_p99",
+    "flip_worst_tile",
 )
 COSTLY_METRICS = ("flip_hdr", "delta_e_2000")
 """Of the frame as well, but with their noise floor only: a replicate of these costs a fifth of a second at 512²."""
@@ -54,6 +61,7 @@ class Outcome:
         reference: K batches of the truth.
         sides: effect to what was compared.
         display: the frame's display transform.
+        shares: of the frame's error; None where they were not asked for, or the frame is not finite.
     """
 
     results: outcome.Results
@@ -62,6 +70,7 @@ class Outcome:
     sides: dict[str, Sides]
     display: Callable[[np.ndarray], np.ndarray]
     plan: Plan
+    shares: Shares | None
 
 
 def compare(
@@ -72,6 +81,7 @@ def compare(
     choice: Choice | None = None,
     store: Store | None = None,
     folder: Path | None = None,
+    shares: bool = True,
     report: Report = silent,
     say: Callable[[str], None] = lambda _message: None,
 ) -> Outcome:
@@ -82,6 +92,7 @@ def compare(
         seed: names the random numbers of the truth.
         store: where batches and oracles are kept; None: nowhere.
         folder: a reference made by `lightmeter reference`, taken as it is.
+        shares: whether the frame's error is shared out among the effects.
         report: told of progress.
         say: told of what the user should know.
 
@@ -101,10 +112,18 @@ def compare(
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
     display = display_transform(plan)
-    sides = effect_sides(renderer, truth, report) | display_sides(plan, reference.batches)
-    closed = Sides(list(closure_batches(renderer, truth, report)), reference.batches)
+    at = FramePoints.of(renderer, truth)
+    sides = effect_sides(renderer, truth, report, at) | display_sides(plan, reference.batches)
+    shared = None
+    if shares and not _nonfinite(frame, sides).total():
+        families, among = Families(renderer, truth, frame.radiance, at, report), players(plan)
+        shared = attribute(among, plan.effects, families, reference.batches, display, report)
+        closed = composition(families.layers(tuple(among)), tuple(among)).astype(np.float32)
+    else:
+        closed = closure_batches(renderer, truth, report=report)
+    closed = Sides(list(closed), reference.batches)
     whole = Sides([frame.radiance], reference.batches)
-    questions = {_COSTLY: Question(COSTLY_METRICS, whole), _FRAME: Question(FRAME_METRICS, whole, groups=4)}
+    questions = {_COSTLY: Question(COSTLY_METRICS, whole), _FRAME: Question(FRAME_METRICS, whole, bounds=True)}
     questions |= {_CLOSURE: Question(CLOSURE_METRICS, closed)}
     questions |= {name: Question(EFFECT_METRICS, side) for name, side in sides.items()}
     measured = answers(questions, display, report)
@@ -123,6 +142,7 @@ def compare(
                 knobs=dict(plan.effects[name][1]),
                 metrics=measured[name],
                 time_ms=_timing(times.of(name)),
+                share=_share(shared, name),
             )
             for name in _order(plan)
         ),
@@ -132,14 +152,21 @@ def compare(
         notes=scene.notes + _notes(renderer, times),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
+        attribution=shared.attribution if shared else None,
     )
-    return Outcome(results, frame, reference.batches, sides, display, plan)
+    return Outcome(results, frame, reference.batches, sides, display, plan, shared)
 
 
 def _order(plan: Plan) -> list[str]:
     """The effects in the order they are drawn; those without a step (coverage, material) last."""
     drawn = dict.fromkeys(step.effect for step in plan.steps)
     return [*drawn, *(name for name in plan.effects if name not in drawn)]
+
+
+def _share(shares: Shares | None, effect: str) -> dict[str, Measurement]:
+    """An effect's shares; none of a display effect, which acts on the finished image."""
+    players = shares.attribution.players if shares else ()
+    return next((dict(player.share) for player in players if player.name == effect), {})
 
 
 def _closure_result(found: dict[str, Measurement]) -> outcome.Closure:

@@ -24,14 +24,14 @@ class Question:
     """Which metrics of which two sides.
 
     Attributes:
-        groups: jackknife replicates that correct metrics which noise biases; 0: none.
+        bounds: whether metrics that noise biases get bounds, for twelve error maps in place of two.
         mask: (H, W) boolean, True where pixels count; None: all.
         confidence: of every interval.
     """
 
     names: tuple[str, ...]
     sides: Sides
-    groups: int = 0
+    bounds: bool = False
     mask: np.ndarray | None = None
     confidence: float = 0.95
 
@@ -60,7 +60,7 @@ def answer(question: Question, display: Display) -> dict[str, Measurement]:
     small = min(comparison.height, comparison.width) < WINDOW
     usable = [name for name in question.names if name != "ssim" or not small]
     known = {option for name in usable for option in find_metric(name).options}
-    options = {"display": display if linear else clipped, "groups": question.groups}
+    options = {"display": display if linear else clipped, "bound": question.bounds}
     found = measure_all(usable, comparison, **{name: value for name, value in options.items() if name in known})
     if not linear:  # a display value is a pure number
         found = {name: replace(m, unit="" if m.unit == RADIANCE else m.unit) for name, m in found.items()}

@@ -9,6 +9,7 @@ from lightmeter.progress import Report
 from lightmeter.realtime.display import DISPLAY_TERMS, twin
 from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples, stack_points
 from lightmeter.truth import ExactBatch, Truth
@@ -40,28 +41,56 @@ class _Sums:
     truth: list[np.ndarray] = field(default_factory=list)
 
 
+@dataclass(frozen=True, eq=False)
+class FramePoints:
+    """The frame's own sub-pixel samples.
+
+    Attributes:
+        captures: what the effects gave at each of them.
+        points: (n, H, W), as the G-buffer holds them.
+        exact_points: the same points with unfiltered parameters; `points` itself where the scene has no textures.
+        spp: samples per point of the oracles.
+    """
+
+    captures: list[Capture]
+    points: SurfacePoints
+    exact_points: SurfacePoints
+    spp: int
+
+    @classmethod
+    def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
+        """Captures the frame's samples, at most `MOST_SAMPLES` of them."""
+        offsets = some_offsets(renderer.offsets)
+        captures = [renderer.capture(tuple(offset)) for offset in offsets]
+        points = stack_points([capture.points for capture in captures])
+        return cls(captures, points, truth.exact_material(points), max(1, truth.reference.spp // len(offsets)))
+
+
 def effect_sides(
-    renderer: Renderer, truth: Truth, report: Report, only: Collection[str] | None = None
+    renderer: Renderer,
+    truth: Truth,
+    report: Report,
+    at: FramePoints | None = None,
+    only: Collection[str] | None = None,
 ) -> dict[str, Sides]:
     """Every effect that shades, filters or samples, against its oracle at the frame's own points.
 
     Args:
+        at: the frame's points, where the caller has them.
         only: just these effects, and no oracle that they do not need.
     """
-    plan, offsets = renderer.plan, some_offsets(renderer.offsets)
+    plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
+    captures, points, exact_points, spp = at.captures, at.points, at.exact_points, at.spp
     wanted = set(plan.effects if only is None else only)
-    captures = [renderer.capture(tuple(offset)) for offset in offsets]
-    points = stack_points([capture.points for capture in captures])
-    spp = max(1, truth.reference.spp // len(offsets))
     shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS} & wanted
     sums = {name: _Sums() for name in shading}
     material, coverage = (name if name in wanted else None for name in map(plan.effect_of, ("material", "coverage")))
     for name in (material, coverage):
         if name is not None:
             sums[name] = _Sums()
-    composed = material is not None or coverage is not None
+    composed = only is None or material is not None or coverage is not None
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
-    exact_points = truth.exact_material(points) if composed else points
+    exact_points = exact_points if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
         at_frame = truth.batch(points, batch, "frame", spp, terms=terms)

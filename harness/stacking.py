@@ -23,3 +23,8 @@ def reshape_points(points: SurfacePoints, lead: tuple[int, ...]) -> SurfacePoint
 def mean_samples(stacked: np.ndarray) -> np.ndarray:
     """(H, W, 3) float32: the pixel's mean over its n samples, from (n, H, W, 3)."""
     return stacked[0] if len(stacked) == 1 else stacked.mean(axis=0, dtype=np.float64).astype(np.float32)
+
+
+def at_sample(points: SurfacePoints, sample: int) -> SurfacePoints:
+    """(H, W, …): one of the samples of (n, H, W, …)."""
+    return SurfacePoints(**{f.name: getattr(points, f.name)[sample] for f in fields(SurfacePoints)})

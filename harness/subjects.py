@@ -22,6 +22,7 @@ from lightmeter.metrics.sequential import (
     squared_contributions,
 )
 from lightmeter.realtime.timing import Recording
+from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import Sides, contribution, display_sides, some_offsets
 from lightmeter.stacking import mean_samples, stack_points
 
@@ -112,7 +113,7 @@ class ImageSubject:
 
     def measure(self, limit: Limit, confidence: float) -> Measurement:
         """By the metric's own interval."""
-        question = Question((limit.metric,), self.sides(limit), 4, self.case.mask(limit), confidence)
+        question = Question((limit.metric,), self.sides(limit), True, self.case.mask(limit), confidence)
         return answer(question, self.case.display).get(limit.metric) or Measurement(
             np.nan, how=f"failed: the image is too small for {limit.metric}"
         )
@@ -156,7 +157,7 @@ class FrameSubject(ImageSubject):
 
         def value(image: np.ndarray) -> Measurement:
             sides = display_sides(self.case.plan, [image])[limit.of]
-            question = Question((limit.metric,), sides, 0, self.case.mask(limit), confidence)
+            question = Question((limit.metric,), sides, mask=self.case.mask(limit), confidence=confidence)
             return answer(question, self.case.display)[limit.metric]
 
         found, k = value(whole), len(without)
@@ -200,15 +201,18 @@ class EffectSubject(ImageSubject):
         plan, truth = self.case.plan, self.case.truth
         if not self.composed:
             terms = plan.effects[self.effect][0].terms
-            exact = truth.batch(self._points, number, "frame", spp, terms=terms)
+            exact = truth.batch(self._points, number, "frame", spp, remember=False, terms=terms)
             both = contribution(plan, self.effect, self._captures, exact)
             return np.stack([mean_samples(image) for image in both])
-        exact = truth.batch(self._exact_points, number, "exact material", spp).composition()
+        exact = self._composition(self._exact_points, "exact material", number, spp)
         if self.effect == plan.effect_of("coverage"):
             return np.stack([exact, truth.reference_batch(number, self.spp * size)])
         if self._exact_points is self._points:  # no textures, nothing to filter
             return np.stack([exact, exact])
-        return np.stack([truth.batch(self._points, number, "frame", spp).composition(), exact])
+        return np.stack([self._composition(self._points, "frame", number, spp), exact])
+
+    def _composition(self, points: SurfacePoints, family: str, number: int, spp: int) -> np.ndarray:
+        return self.case.truth.batch(points, number, family, spp, remember=False).composition()
 
     def sides(self, limit: Limit) -> Sides:
         return Sides([both[0] for both in self.groups.images], [both[1] for both in self.groups.images])

@@ -20,6 +20,9 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples, reshape_points
 
+MEMORY = 1 << 30
+"""Bytes of oracles' batches that are kept in memory for those who ask again."""
+
 
 Ratio = tuple[np.ndarray, np.ndarray]
 """A and B of a visibility: radiance with and without its shadow, (n, H, W, 3) each."""
@@ -42,6 +45,13 @@ class ExactBatch:
     environment: np.ndarray | None = None
     environment_shadowed: np.ndarray | None = None
     indirect: np.ndarray | None = None
+
+    @property
+    def bytes(self) -> int:
+        """What it takes in memory."""
+        rest = (self.environment, self.environment_shadowed, self.indirect)
+        images = (self.emission, *self.direct.values(), *self.shadowed.values(), *rest)
+        return sum(image.nbytes for image in images if image is not None)
 
     def composition(self) -> np.ndarray:
         """(H, W, 3) float32: the image with every term exact."""
@@ -79,6 +89,8 @@ class Truth:
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
         self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
+        self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
+        self._room = MEMORY
 
     @cached_property
     def _world(self):
@@ -155,6 +167,7 @@ class Truth:
         family: str,
         spp: int,
         keep: bool = True,
+        remember: bool = True,
         terms: Collection[str] = tuple(TERMS),
     ) -> ExactBatch:
         """One batch of every term at stacked points.
@@ -163,9 +176,21 @@ class Truth:
             family: names the random numbers, so that different points are given independent ones.
             spp: samples per point.
             keep: whether the store keeps the oracles one by one.
+            remember: whether the memory keeps them for who asks again.
             terms: those that are wanted; the others cost nothing and are missing from the batch.
         """
-        there = set(terms) - set(self.missing)
+        known, key = self._batches.setdefault(points, {}), (family, batch, spp, frozenset(terms))
+        if key in known:
+            return known[key]
+        found = self._make_batch(points, batch, family, spp, keep, set(terms) - set(self.missing))
+        if keep and remember and self._room >= found.bytes:
+            self._room -= found.bytes
+            known[key] = found
+        return found
+
+    def _make_batch(
+        self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: set[str]
+    ) -> ExactBatch:
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
         if there & {"direct", "visibility"}:

@@ -1,7 +1,8 @@
 """The two sides of a comparison, checked once, with the sums that several metrics share."""
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -40,6 +41,7 @@ class Comparison:
         self.height, self.width = self.reference[0].shape[:2]
         self.mask = mask
         self.confidence = confidence
+        self.maps: dict[Hashable, Any] = {}  # of metrics that share them
         self._reference_checked: np.ndarray | str | None = "not yet"
         if self.tested_batches[0].shape != self.reference[0].shape:
             height, width = self.tested_batches[0].shape[:2]
@@ -125,20 +127,32 @@ class Comparison:
     @cached_property
     def mean_reference(self) -> np.ndarray:
         """(H, W, 3) float64, the mean of all batches."""
-        return self.mean_of(range(self.batches))
+        return _mean(self.reference)
 
     @cached_property
     def mean_tested(self) -> np.ndarray:
         """(H, W, 3), the tested image, or the mean of its batches in float64."""
-        return self.tested_mean_of(range(self.batches))
+        return _mean(self.tested_batches) if self.paired else self.tested_batches[0]
 
-    def mean_of(self, which: Sequence[int]) -> np.ndarray:
-        """(H, W, 3) float64, the mean of some of the reference's batches."""
-        return _mean(self.reference, which)
+    def reference_part(self, quarters: Sequence[int]) -> np.ndarray:
+        """(H, W, 3) float64, the mean of some quarters of the batches: batch k belongs to quarter k mod 4."""
+        if len(quarters) == 4:
+            return self.mean_reference
+        return _part(self._reference_quarters, quarters)
 
-    def tested_mean_of(self, which: Sequence[int]) -> np.ndarray:
-        """The tested image, or the mean of some of its batches where it comes as batches."""
-        return _mean(self.tested_batches, which) if self.paired else self.tested_batches[0]
+    def tested_part(self, quarters: Sequence[int]) -> np.ndarray:
+        """The tested image, or the mean of those quarters of its batches where it comes as batches."""
+        if not self.paired or len(quarters) == 4:
+            return self.mean_tested
+        return _part(self._tested_quarters, quarters)
+
+    @cached_property
+    def _reference_quarters(self) -> list[tuple[int, np.ndarray]]:
+        return _quarters(self.reference)
+
+    @cached_property
+    def _tested_quarters(self) -> list[tuple[int, np.ndarray]]:
+        return _quarters(self.tested_batches)
 
     def check_reference(self, mask: np.ndarray | None) -> None:
         """Raises InputError where a reference batch is not finite inside `mask`."""
@@ -179,8 +193,19 @@ def _batches(images: Images, side: str) -> list[np.ndarray]:
     return found
 
 
-def _mean(images: Sequence[np.ndarray], which: Sequence[int]) -> np.ndarray:
+def _mean(images: Sequence[np.ndarray]) -> np.ndarray:
     total = np.zeros(images[0].shape, np.float64)
-    for index in which:
-        total += images[index]
-    return total / len(which)
+    for image in images:
+        total += image
+    return total / len(images)
+
+
+def _quarters(images: Sequence[np.ndarray]) -> list[tuple[int, np.ndarray]]:
+    """How many images each quarter has, and their mean."""
+    return [(len(quarter), _mean(quarter)) for q in range(4) if (quarter := images[q::4])]
+
+
+def _part(quarters: list[tuple[int, np.ndarray]], which: Sequence[int]) -> np.ndarray:
+    chosen = [quarters[q] for q in which if q < len(quarters)]
+    count = sum(n for n, _ in chosen)
+    return np.sum([mean * (n / count) for n, mean in chosen], axis=0)

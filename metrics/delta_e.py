@@ -12,7 +12,7 @@ import numpy as np
 from .comparison import Comparison
 from .input_error import InputError
 from .measurement import Measurement
-from .noisy_mean import measure_noisy_mean
+from .noisy_mean import ErrorMap, measure_map
 
 # BT.2408's reference white for HDR: what a scene-linear 1 is shown at unless stated.
 REFERENCE_WHITE = 203.0
@@ -77,33 +77,29 @@ def delta_e_itp_map(tested: np.ndarray, reference: np.ndarray, white: float = RE
 def delta_e_2000(
     comparison: Comparison,
     display: Callable[[np.ndarray], np.ndarray] | None = None,
-    groups: int = 4,
+    bound: bool = True,
 ) -> Measurement:
     """Mean ΔE2000 of the display images; reported as `noisy_mean` says.
 
     Args:
         comparison: the two sides, scene-linear, or sRGB-encoded display values where `display` is None.
         display: maps (H, W, 3) scene-linear to sRGB-encoded [0, 1]; put on both sides.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
     """
-    return measure_noisy_mean(comparison, delta_e_2000_map, how="ΔE2000", unit="ΔE", display=display, groups=groups)
+    error = ErrorMap("delta_e_2000", delta_e_2000_map, display)
+    return measure_map(comparison, error, how="ΔE2000", unit="ΔE", bound=bound)
 
 
-def delta_e_itp(comparison: Comparison, white: float = REFERENCE_WHITE, groups: int = 4) -> Measurement:
+def delta_e_itp(comparison: Comparison, white: float = REFERENCE_WHITE, bound: bool = True) -> Measurement:
     """Mean ΔE_ITP of scene-linear images; reported as `noisy_mean` says.
 
     Args:
         comparison: the two sides, scene-linear Rec.709.
         white: the luminance in cd/m² at which a scene-linear 1 is shown.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
     """
-    return measure_noisy_mean(
-        comparison,
-        lambda t, r: delta_e_itp_map(t, r, white),
-        how=f"ΔE_ITP, white at {white:g} cd/m²",
-        unit="ΔE",
-        groups=groups,
-    )
+    error = ErrorMap(("delta_e_itp", white), lambda t, r: delta_e_itp_map(t, r, white))
+    return measure_map(comparison, error, how=f"ΔE_ITP, white at {white:g} cd/m²", unit="ΔE", bound=bound)
 
 
 def _colour():

@@ -29,7 +29,7 @@ from numpy.lib.stride_tricks import as_strided
 from .comparison import Comparison
 from .input_error import InputError
 from .measurement import Measurement
-from .noisy_mean import measure_noisy_mean
+from .noisy_mean import ErrorMap, measure_map
 
 # 0.7 m from a display 0.7 m and 3840 pixels wide: the papers' viewing condition, 67.02 pixels a degree.
 PIXELS_PER_DEGREE = 0.7 * 3840 / 0.7 * math.pi / 180
@@ -63,6 +63,51 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722], dtype=np.float32)
 
 _TILE = 64  # output pixels a matrix product; 64 keeps the arithmetic low and the product large enough
 _STRIP = 64  # rows worked on at once: 64 × 512 pixels with all intermediates fit a 2 MB cache
+
+
+Filtered = tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]
+"""A strip's filtered colours and its features' strengths."""
+
+
+class FlipAgainst:
+    """LDR-FLIP of many display images against one, which is filtered once: half the work.
+
+    Args:
+        reference: (H, W, 3), sRGB-encoded display values in [0, 1]; values outside are clamped.
+        pixels_per_degree: pixels per degree of the viewer's visual angle.
+
+    Raises:
+        InputError: as `ldr_flip`.
+    """
+
+    def __init__(self, reference: np.ndarray, pixels_per_degree: float = PIXELS_PER_DEGREE) -> None:
+        self._reference, self._ppd = reference, pixels_per_degree
+        (image,) = _checked(reference, reference, pixels_per_degree)[:1]
+        self._strips = list(map(self._filter, self._windows(image)))
+
+    def __call__(self, tested: np.ndarray) -> np.ndarray:
+        """The error map as `ldr_flip` gives it, on one thread: callers have many images for their threads.
+
+        Args:
+            tested: (H, W, 3), as the reference.
+
+        Returns:
+            (H, W) float32 in [0, 1]; NaN around a pixel that is not finite.
+        """
+        image, _ = _checked(tested, self._reference, self._ppd)
+        height, width = image.shape[:2]
+        windows = zip(self._windows(image), self._strips, strict=True)
+        rows = [_difference(self._filter(window), known)[:, :width] for window, known in windows]
+        return np.concatenate(rows)[:height]
+
+    def _filter(self, window: np.ndarray) -> Filtered:
+        return _filtered(_decode_srgb(window), self._ppd)
+
+    def _windows(self, image: np.ndarray):
+        radius, _, _ = _operators(self._ppd)
+        planes = _padded(image, self._ppd)
+        for top in range(0, image.shape[0], _STRIP):
+            yield planes[:, top : top + _STRIP + 2 * radius]
 
 
 @dataclass(frozen=True)
@@ -199,7 +244,7 @@ def flip(
     comparison: Comparison,
     display: Callable[[np.ndarray], np.ndarray] | None = None,
     pixels_per_degree: float = PIXELS_PER_DEGREE,
-    groups: int = 4,
+    bound: bool = True,
 ) -> Measurement:
     """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal.
 
@@ -207,27 +252,30 @@ def flip(
         comparison: the two sides, scene-linear, or display values where `display` is None.
         display: maps (H, W, 3) scene-linear to sRGB-encoded [0, 1]; put on both sides.
         pixels_per_degree: pixels per degree of the viewer's visual angle.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
 
     Source: Andersson et al. 2020. Reported as `noisy_mean` says.
     """
-    return measure_noisy_mean(
+    return measure_map(
         comparison,
-        lambda t, r: ldr_flip(t, r, pixels_per_degree),
+        flip_error(display, pixels_per_degree),
         how=f"FLIP, {pixels_per_degree:.1f} pixels per degree",
-        display=display,
-        groups=groups,
-        spatial=True,
+        bound=bound,
     )
 
 
-def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, groups: int = 4) -> Measurement:
+def flip_error(display: Callable[[np.ndarray], np.ndarray] | None, pixels_per_degree: float) -> ErrorMap:
+    """LDR-FLIP's map, as the metrics that read it share it."""
+    return ErrorMap(("flip", pixels_per_degree), lambda t, r: ldr_flip(t, r, pixels_per_degree), display, spatial=True)
+
+
+def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, bound: bool = True) -> Measurement:
     """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal.
 
     Args:
         comparison: the two sides, scene-linear.
         pixels_per_degree: pixels per degree of the viewer's visual angle.
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
 
     Source: Andersson et al. 2021. Reported as `noisy_mean` says. All replicates use the exposures of the
     full mean: with exposures of their own they would differ by more than their noise.
@@ -235,12 +283,15 @@ def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGRE
     if comparison.unusable(spatial=True):
         return comparison.failure("")
     start, stop = exposure_range(comparison.mean_reference, comparison.mean_tested)
-    return measure_noisy_mean(
+    return measure_map(
         comparison,
-        lambda t, r: hdr_flip(t, r, pixels_per_degree, start, stop).error,
+        ErrorMap(
+            ("flip_hdr", pixels_per_degree),
+            lambda t, r: hdr_flip(t, r, pixels_per_degree, start, stop).error,
+            spatial=True,
+        ),
         how=f"HDR-FLIP, {pixels_per_degree:.1f} pixels per degree, {start:.2f} to {stop:.2f} stops",
-        groups=groups,
-        spatial=True,
+        bound=bound,
     )
 
 
@@ -407,10 +458,7 @@ def _evaluate(
     """The largest LDR-FLIP over several transforms to linear display RGB, and which of them gave it."""
     height, width = images[0].shape[:2]
     radius, _, _ = _operators(pixels_per_degree)
-    # Edges repeat (2020, section 4); the right and lower rest of the last tile is padding too.
-    right, below = -width % _TILE, -height % _STRIP
-    pad = ((radius, radius + below), (radius, radius + right), (0, 0))
-    planes = [np.ascontiguousarray(np.pad(_finite_or_nan(i), pad, mode="edge").transpose(2, 0, 1)) for i in images]
+    planes = [_padded(image, pixels_per_degree) for image in images]
     error = np.zeros((height, width), np.float32)
     which = np.zeros((height, width), np.intp)
 
@@ -419,7 +467,7 @@ def _evaluate(
         n = rows.stop - rows.start
         windows = [p[:, top : top + _STRIP + 2 * radius] for p in planes]
         for index, transform in enumerate(to_linear):
-            found = _strip_error([transform(w) for w in windows], pixels_per_degree)[:n, :width]
+            found = _difference(*(_filtered(transform(w), pixels_per_degree) for w in windows))[:n, :width]
             if index == 0:
                 error[rows] = found
             else:
@@ -438,14 +486,19 @@ def _evaluate(
     return error, which
 
 
-def _strip_error(windows: list[np.ndarray], pixels_per_degree: float) -> np.ndarray:
-    """FLIP of one strip: linear RGB windows (3, _STRIP + 2r, tiles + 2r) to (_STRIP, tiles)."""
-    labs, features = [], []
-    for linear in windows:
-        lab, feature = _filtered(linear, pixels_per_degree)
-        labs.append(lab)
-        features.append(feature)
+def _padded(image: np.ndarray, pixels_per_degree: float) -> np.ndarray:
+    """(3, rows, columns) of (H, W, 3) with the filters' margin and whole strips and tiles."""
+    height, width = image.shape[:2]
+    radius, _, _ = _operators(pixels_per_degree)
+    # Edges repeat (2020, section 4); the right and lower rest of the last tile is padding too.
+    right, below = -width % _TILE, -height % _STRIP
+    pad = ((radius, radius + below), (radius, radius + right), (0, 0))
+    return np.ascontiguousarray(np.pad(_finite_or_nan(image), pad, mode="edge").transpose(2, 0, 1))
 
+
+def _difference(a: Filtered, b: Filtered) -> np.ndarray:
+    """FLIP of one strip, (_STRIP, tiles), from what `_filtered` made of both images."""
+    labs, features = zip(a, b, strict=True)
     colour = _hyab(*labs) ** np.float32(_QC)
     knee = _PC * _COLOUR_MAX
     above = np.float32((1 - _PT) / (_COLOUR_MAX - knee))
@@ -459,8 +512,8 @@ def _strip_error(windows: list[np.ndarray], pixels_per_degree: float) -> np.ndar
     return colour.reshape(feature.shape) ** (1 - feature)
 
 
-def _filtered(linear: np.ndarray, pixels_per_degree: float) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """One image's strip: Hunt-adjusted Lab (3, n) after contrast filtering, and (edge, point) strengths."""
+def _filtered(linear: np.ndarray, pixels_per_degree: float) -> Filtered:
+    """One image's strip, linear RGB (3, _STRIP + 2r, tiles + 2r): Hunt-adjusted Lab (3, n) after contrast filtering, and (edge, point) strengths."""
     radius, along_x, along_y = _operators(pixels_per_degree)
     _, rows, columns = linear.shape
     tiles = (columns - 2 * radius) // _TILE

@@ -5,10 +5,12 @@ import numpy as np
 from .comparison import Comparison
 from .measurement import Measurement
 from .mse import RADIANCE
-from .noisy_mean import measure_noisy_mean
+from .noisy_mean import ErrorMap, measure_map
+
+_ABSOLUTE = ErrorMap("absolute difference", lambda t, r: np.abs(t - r).mean(axis=2))
 
 
-def mae(comparison: Comparison, groups: int | None = None) -> Measurement:
+def mae(comparison: Comparison, bound: bool = True) -> Measurement:
     """Mean over pixels and channels of |tested − mean reference|, in W/sr/m².
 
     Biased upwards by the reference's noise where the error is small: reported as `noisy_mean` says. Negative
@@ -16,12 +18,6 @@ def mae(comparison: Comparison, groups: int | None = None) -> Measurement:
 
     Args:
         comparison: the two sides, scene-linear.
-        groups: jackknife replicates; one a batch when None, 0 for none.
+        bound: whether to look for the bound, or only for the floor.
     """
-    return measure_noisy_mean(
-        comparison,
-        lambda t, r: np.abs(t - r).mean(axis=2),
-        how="mean absolute difference",
-        unit=RADIANCE,
-        groups=comparison.batches if groups is None else groups,
-    )
+    return measure_map(comparison, _ABSOLUTE, how="mean absolute difference", unit=RADIANCE, bound=bound)

@@ -15,7 +15,7 @@ class Measurement:
         how: the estimator in a few words ("U-statistic over 8 batches, jackknife, Student t").
         floor: the same metric between two halves of the reference, for metrics that noise biases;
             None where noise does not bias the metric.
-        corrected: the jackknife bias-corrected value, for metrics that noise biases; else None.
+        corrected: the value extrapolated to no noise, for metrics that noise biases; else None.
     """
 
     value: float

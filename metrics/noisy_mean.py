@@ -1,78 +1,147 @@
 """Metrics that are not linear, of a reference that is noisy.
 
-The noise of the mean biases such a metric, mostly upwards, and no estimator is free of it. So three numbers are
-reported: the value at the full mean; that value corrected by a delete-a-group jackknife (Quenouille 1956; unequal
-groups: Busing, Meijer and van der Leeden 1999), which takes off the part of the bias that falls as 1/K, and only
-about half of the part that falls as 1/√K, as near zero error; and the floor, the same metric between two halves of
-the reference, about what two equal but noisy images would get. No interval is claimed.
+The noise of the mean biases such a metric, mostly upwards, and no estimator is free of it. So the value at the mean of
+all batches comes with a bound (`low`, `high`) that holds the value without noise at least as often as the comparison's
+confidence says; with the extrapolated value (`corrected`); and with the floor, the same metric between two halves of
+the reference, about what two equal but noisy images would get. How they come about: `noise_bound`.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
 
 import numpy as np
 
 from .comparison import Comparison
 from .measurement import Measurement
+from .noise_bound import LEAST_BATCHES, QUARTERS, SPLITS, Ladder
 
 Image = np.ndarray
+Part = tuple[int, ...]
+"""Which quarters of the batches."""
 
 
-def measure_noisy_mean(
+@dataclass(frozen=True)
+class ErrorMap:
+    """How two images become a map of their difference. Metrics that read the same map share it.
+
+    Attributes:
+        name: all that `function` depends on.
+        function: (tested, reference), both (H, W, 3), to (H, W).
+        display: put on both sides first; identity when None.
+        spatial: its filters read past the mask.
+    """
+
+    name: Hashable
+    function: Callable[[Image, Image], Image]
+    display: Callable[[Image], Image] | None = None
+    spatial: bool = False
+
+    def between(self, tested: Image, reference: Image, mask: np.ndarray | None) -> Image:
+        """The map of two images."""
+        sides = [tested, reference]
+        if mask is not None and not self.spatial:
+            # Outside the mask may be NaN, which a display transform need not survive.
+            sides = [np.where(mask[..., None], image, 0) for image in sides]
+        if self.display is not None:
+            sides = [self.display(image) for image in sides]
+        return np.asarray(self.function(*sides))
+
+    def of(self, comparison: Comparison, part: Part) -> Image:
+        """The map at the mean of some quarters of the batches, kept with the comparison."""
+        key = self.name, self.display, part
+        if key not in comparison.maps:
+            sides = comparison.tested_part(part), comparison.reference_part(part)
+            comparison.maps[key] = self.between(*sides, comparison.mask)
+        return comparison.maps[key]
+
+    def floor(self, comparison: Comparison) -> list[Image]:
+        """Maps between two halves of the reference and, where it comes as batches, of the tested side."""
+        key = self.name, self.display, "floor"
+        if key not in comparison.maps:
+            sides = [comparison.reference_part, *([comparison.tested_part] if comparison.paired else [])]
+            comparison.maps[key] = [self.between(*map(side, SPLITS[0]), comparison.mask) for side in sides]
+        return comparison.maps[key]
+
+
+def mean(values: Image, mask: np.ndarray | None) -> float:
+    """Over the pixels that count."""
+    return float(np.mean(values if mask is None else values[mask], dtype=np.float64))
+
+
+def measure_map(
     comparison: Comparison,
-    metric: Callable[[Image, Image], Image | float],
+    error: ErrorMap,
+    summary: Callable[[Image, np.ndarray | None], float] = mean,
     *,
     how: str,
     unit: str = "",
-    display: Callable[[Image], Image] | None = None,
-    groups: int = 4,
-    spatial: bool = False,
+    perfect: float = 0.0,
+    larger_is_worse: bool = True,
+    bound: bool = True,
 ) -> Measurement:
-    """A non-linear metric at the mean of the batches, corrected, and its noise floor.
+    """A number of an error map of the mean of the batches, with its bound and its noise floor.
 
     Args:
         comparison: the two sides.
-        metric: (tested, reference), both (H, W, 3), to a map (H, W) whose mean over the mask is taken.
+        error: the map.
+        summary: (map, mask) to the number.
         how: the metric in a few words.
         unit: the value's unit.
-        display: put on both sides first; identity when None.
-        groups: jackknife replicates, at most the number of batches; below 2 there is no `corrected`.
-        spatial: the metric's filters read past the mask.
-
-    Returns:
-        value, corrected (None below 2 batches or groups), floor (None below 2 batches); no interval.
+        perfect: the value where there is no error; nothing is better.
+        larger_is_worse: on which side of it the others lie.
+        bound: whether to spend the ten more maps that `low`, `high` and `corrected` take.
 
     Raises:
         InputError: the reference is not finite where the metric reads it.
     """
-    if comparison.unusable(spatial):
+    if comparison.unusable(error.spatial):
         return comparison.failure(unit)
-    comparison.check_reference(None if spatial else comparison.mask)
-    mask = comparison.mask
+    comparison.check_reference(None if error.spatial else comparison.mask)
+    return measure_parts(
+        comparison,
+        lambda part: summary(error.of(comparison, part), comparison.mask),
+        lambda: [summary(found, comparison.mask) for found in error.floor(comparison)],
+        how=how,
+        unit=unit,
+        perfect=perfect,
+        larger_is_worse=larger_is_worse,
+        bound=bound,
+    )
 
-    def shown(image: Image) -> Image:
-        if mask is not None and not spatial:
-            # Outside the mask may be NaN, which a display transform need not survive.
-            image = np.where(mask[..., None], image, 0)
-        return image if display is None else display(image)
 
-    def evaluate(tested: Image, reference: Image) -> float:
-        error = np.asarray(metric(shown(tested), shown(reference)))
-        return float(np.mean(error if mask is None else error[mask], dtype=np.float64))
+def measure_parts(
+    comparison: Comparison,
+    at: Callable[[Part], float],
+    floors: Callable[[], list[float]],
+    *,
+    how: str,
+    unit: str = "",
+    perfect: float = 0.0,
+    larger_is_worse: bool = True,
+    bound: bool = True,
+) -> Measurement:
+    """A number that is biased by noise, from what it is of some quarters of the batches.
 
+    Args:
+        comparison: the two sides, checked.
+        at: the number from these quarters of the batches.
+        floors: the number between two halves of either side that is noisy; the worst is the floor.
+        how, unit, perfect, larger_is_worse, bound: as of `measure_map`.
+    """
     k = comparison.batches
-    value = evaluate(comparison.mean_tested, comparison.mean_reference)
+    value = at(QUARTERS)
     if k == 1:
         return Measurement(value, unit=unit, how=f"{how}, one reference image")
-
-    def without(group: Sequence[int]) -> float:
-        kept = [i for i in range(k) if i not in group]
-        return evaluate(comparison.tested_mean_of(kept), comparison.mean_of(kept))
-
-    corrected = None
-    groups = min(groups, k)
-    if groups >= 2:
-        parts = [range(g, k, groups) for g in range(groups)]
-        corrected = groups * value - math.fsum((1 - len(part) / k) * without(part) for part in parts)
-    floor = evaluate(comparison.mean_of(range(0, k, 2)), comparison.mean_of(range(1, k, 2)))
-    return Measurement(value, unit=unit, how=f"{how}, at the mean of {k} batches", floor=floor, corrected=corrected)
+    how = f"{how}, at the mean of {k} batches"
+    floor = max(floors(), key=lambda found: abs(found - perfect))
+    if not bound or k < LEAST_BATCHES:
+        why = "" if not bound else f", no bound under {LEAST_BATCHES} batches"
+        return Measurement(value, unit=unit, how=how + why, floor=floor)
+    halves = np.array([[at(half) for half in split] for split in SPLITS])
+    quarters = np.array([at((quarter,)) for quarter in QUARTERS])
+    ladder = Ladder(value, halves, quarters, floor, perfect, larger_is_worse)
+    if not all(map(math.isfinite, (value, floor, *halves.ravel(), *quarters))):
+        return Measurement(value, unit=unit, how=f"{how}, no bound: it is not finite", floor=floor)
+    low, high = ladder.bound(comparison.confidence)
+    return Measurement(value, low, high, unit, f"{how}, bound from fewer batches", floor, ladder.extrapolated())

@@ -16,8 +16,10 @@ from .input_error import InputError
 from .mae import mae
 from .measurement import Measurement
 from .mse import RADIANCE, mse, nrmse, relmse, rmse
+from .percentile import flip_p95, flip_p99, rms_p95, rms_p99
 from .psnr import psnr
 from .ssim import ssim
+from .worst_tile import flip_worst_tile, rms_worst_tile
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ class Metric:
 
 _U_STATISTIC = "Hoeffding 1948 (U-statistic), Arvesen 1969 (its jackknife)"
 _FLIP = "Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild 2020"
+_PERCENTILE = "Hyndman, Fan 1996 (type 7)"
+_TILE = "Hoeffding 1948 (U-statistic of each tile)"
 _HDR_FLIP = "Andersson, Nilsson, Shirley, Akenine-Möller 2021"
 
 METRICS: dict[str, Metric] = {
@@ -67,12 +71,24 @@ METRICS: dict[str, Metric] = {
                "Quenouille 1949 (jackknife)", bias, signed=True),
         Metric("relative_bias", "Signed mean difference over the reference's mean.", "", "scene-linear", True,
                "Quenouille 1949 (jackknife)", relative_bias, signed=True),
-        Metric("mae", "Mean absolute error.", RADIANCE, "scene-linear", True, "Quenouille 1956 (correction)", mae),
+        Metric("mae", "Mean absolute error.", RADIANCE, "scene-linear", True, "McCarthy 1969 (half-samples)", mae),
+        Metric("rms_p95", "95th percentile over pixels of the RMS error.", RADIANCE, "scene-linear", True,
+               _PERCENTILE, rms_p95),
+        Metric("rms_p99", "99th percentile over pixels of the RMS error.", RADIANCE, "scene-linear", True,
+               _PERCENTILE, rms_p99),
+        Metric("rms_worst_tile", "Largest RMSE of any tile of 16 × 16 pixels.", RADIANCE, "scene-linear", True,
+               _TILE, rms_worst_tile),
         Metric("psnr", "Peak signal-to-noise ratio of the unbiased MSE at a stated peak.", "dB", "scene-linear",
                False, _U_STATISTIC, psnr),
         Metric("ssim", "Structural similarity of the display images.", "", "display", False,
                "Wang, Bovik, Sheikh, Simoncelli 2004", ssim),
         Metric("flip", "Visible difference when display images are flipped.", "", "display", True, _FLIP, flip),
+        Metric("flip_p95", "95th percentile over pixels of FLIP.", "", "display", True,
+               f"{_FLIP}; {_PERCENTILE}", flip_p95),
+        Metric("flip_p99", "99th percentile over pixels of FLIP.", "", "display", True,
+               f"{_FLIP}; {_PERCENTILE}", flip_p99),
+        Metric("flip_worst_tile", "Largest mean FLIP of any tile of 16 × 16 pixels.", "", "display", True, _FLIP,
+               flip_worst_tile),
         Metric("flip_hdr", "Largest FLIP over a range of exposures.", "", "scene-linear", True, _HDR_FLIP, flip_hdr),
         Metric("delta_e_2000", "Mean CIEDE2000 colour difference of the display images.", "ΔE", "display", True,
                "CIE 142-2001; Sharma, Wu, Dalal 2005", delta_e_2000),
@@ -103,7 +119,7 @@ def measure(
         tested: (H, W, 3), or K batches of it.
         reference: K batches (K, H, W, 3), or one (H, W, 3).
         mask: (H, W) boolean, True where pixels count.
-        **options: the metric's own (`Metric.options`), such as `display`, `peak`, `pixels_per_degree`, `groups`.
+        **options: the metric's own (`Metric.options`), such as `display`, `peak`, `pixels_per_degree`, `bound`.
 
     Raises:
         InputError: the name or an option is unknown, or the input cannot be compared.

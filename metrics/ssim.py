@@ -11,7 +11,7 @@ import numpy as np
 from .comparison import Comparison
 from .input_error import InputError
 from .measurement import Measurement
-from .noisy_mean import measure_noisy_mean
+from .noisy_mean import ErrorMap, measure_map
 
 WINDOW = 11
 _RADIUS = WINDOW // 2
@@ -69,7 +69,7 @@ def ssim(
     comparison: Comparison,
     display: Callable[[np.ndarray], np.ndarray] | None = None,
     data_range: float = 1.0,
-    groups: int = 4,
+    bound: bool = True,
 ) -> Measurement:
     """Mean SSIM of the display images, 1 is equal.
 
@@ -79,7 +79,7 @@ def ssim(
         comparison: the two sides, scene-linear, or display values where `display` is None.
         display: maps (H, W, 3) scene-linear to display values; put on both sides.
         data_range: the range of display values, 1 for [0, 1].
-        groups: delete-a-group jackknife replicates for `corrected`; 0 leaves it out.
+        bound: whether to look for the bound, or only for the floor.
 
     Raises:
         InputError: the images are smaller than 11 × 11, or no pixel of the mask is 5 pixels from the border.
@@ -95,19 +95,17 @@ def ssim(
                 remedy="Widen the mask, or use a pixel-wise metric such as rmse.",
             )
 
-    mask = comparison.mask
+    def inside_mean(values: np.ndarray, mask: np.ndarray | None) -> float:
+        """The border has no value."""
+        inside = values[inner, inner] if mask is None else values[inner, inner][mask[inner, inner]]
+        return float(np.mean(inside, dtype=np.float64))
 
-    def inside_mean(tested: np.ndarray, reference: np.ndarray) -> np.ndarray:
-        found = ssim_map(tested, reference, data_range)
-        # The border has no value: its pixels take the mean of the others, so that the mean is theirs.
-        inside = found[inner, inner] if mask is None else found[inner, inner][mask[inner, inner]]
-        return np.full(found.shape, np.mean(inside, dtype=np.float64))
-
-    return measure_noisy_mean(
+    return measure_map(
         comparison,
+        ErrorMap(("ssim", data_range), lambda t, r: ssim_map(t, r, data_range), display, spatial=True),
         inside_mean,
         how=f"SSIM, {WINDOW}×{WINDOW} Gaussian window, data range {data_range:g}",
-        display=display,
-        groups=groups,
-        spatial=True,
+        perfect=1.0,
+        larger_is_worse=False,
+        bound=bound,
     )

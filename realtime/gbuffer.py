@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from lightmeter.scenes.model import Material, Scene, Texture, Vector
+from lightmeter.scenes.points import SurfacePoints
 
 from .background import Background
 from .device import Device
@@ -144,6 +145,20 @@ class GBuffer:
             self._device.draw(draw.vertices, draw.count)
         if self._background is not None:
             self._background.draw()
+
+    def load(self, points: SurfacePoints) -> None:
+        """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
+        for attachment in self._attachments:
+            if not attachment.channels:
+                continue
+            width, height = self._size
+            data = np.zeros((height, width, attachment.components), np.float32)
+            for name in attachment.channels:
+                data[..., PARTS[name][1]] = getattr(points, name)
+            if attachment.name == "position":
+                data[..., 3] = 1.0
+            data[~points.hit] = 0.0
+            self.textures[attachment.name].write(np.ascontiguousarray(data[::-1]), alignment=1)
 
     def channel(self, name: str) -> np.ndarray:
         """A channel's values, (H, W) or (H, W, 3) float32, row 0 at the top."""

@@ -82,6 +82,7 @@ class Renderer:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
+        self._held: dict[str, int] = {}  # effect to the light whose map its pass for captures holds
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
@@ -177,11 +178,21 @@ class Renderer:
 
     def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
         """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
-        gbuffer, passes = self._capture_stage
+        gbuffer, _ = self._capture_stage
         gbuffer.draw(offset)
         points = self._points(gbuffer)
+        return self._shaded(points) if terms else Capture(points, {}, {}, {})
+
+    def shade(self, points: SurfacePoints) -> Capture:
+        """Every effect's buffer at given points, such as a capture's with other parameters."""
+        self._capture_stage[0].load(points)
+        return self._shaded(points)
+
+    def _shaded(self, points: SurfacePoints) -> Capture:
+        """Every effect's buffer at the points that the G-buffer holds."""
+        _, passes = self._capture_stage
         direct, visibility, frame = {}, {}, {}
-        for step in self.plan.steps if terms else ():
+        for step in self.plan.steps:
             if step.writes[0] in DISPLAY_TERMS:
                 continue
             values = self._separate(passes[step.effect], step)
@@ -207,8 +218,10 @@ class Renderer:
         """What a step writes, each term by itself; a visibility is 1 and a radiance 0 where nothing is drawn."""
         textures = [self.device.target(self.size) for _ in step.writes]
         target = self.device.framebuffer(textures)
-        if shading.own is not None and step.light is not None:
+        if shading.own is not None and step.light is not None and self._held.get(step.effect) != step.light:
+            # A light's map does not depend on where in the pixel the scene is sampled.
             shading.own.draw(step.light)
+            self._held[step.effect] = step.light
         shading.draw(step, target, {})
         return {
             term: self.device.read(texture)[..., :3].copy() for term, texture in zip(step.writes, textures, strict=True)

@@ -14,6 +14,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     options.add_choice(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where the report goes (default lightmeter-out/SCENE)")
     parser.add_argument("--reference", metavar="DIR", help="a reference that `lightmeter reference` wrote")
+    parser.add_argument("--no-shares", action="store_true", help="do not share the frame's error out among the effects")
     options.add_store(parser)
     options.add_json(parser)
 
@@ -36,7 +37,16 @@ def run(args: argparse.Namespace) -> int:
     folder = Path(args.reference) if args.reference else None
     with progress_bar() as report:
         outcome = compare(
-            scene, size, budget, args.seed, choice, store=store, folder=folder, report=report, say=options.say
+            scene,
+            size,
+            budget,
+            args.seed,
+            choice,
+            store=store,
+            folder=folder,
+            shares=not args.no_shares,
+            report=report,
+            say=options.say,
         )
         report("report", 0, 1)
         target = write_outcome(output, outcome)

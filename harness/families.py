@@ -1,0 +1,199 @@
+"""The composition with any set of players exact, as batches.
+
+Terms such as `material` and `coverage` are no buffers but variants of the G-buffer: making one exact changes the points
+that every other term is evaluated at. So there is a *family* of layers per variant: at the frame's own points, or at
+sub-pixel offsets of each batch's own (coverage exact); with the G-buffer's parameters, or unfiltered ones (material
+exact).
+"""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lightmeter.groundtruth.content import digest
+from lightmeter.groundtruth.oracles import coverage
+from lightmeter.groundtruth.store import Series
+from lightmeter.progress import Report, silent
+from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.model import AreaLight, Scene
+from lightmeter.scenes.points import SurfacePoints
+from lightmeter.sides import MOST_SAMPLES, FramePoints
+from lightmeter.stacking import at_sample, mean_samples, stack_points
+from lightmeter.substitution import Slot, exact_ratios, player_of, slot_image, slots
+from lightmeter.truth import FAMILIES, Truth
+
+EMISSION_SPP = 32
+"""Samples per pixel of the emission's control variate."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layers:
+    """Images that add up to the composition.
+
+    Attributes:
+        base: what no player changes: (K, H, W, 3), or (1, H, W, 3) where it is the same for all batches.
+        images: per slot, per set of its exact players: (K or 1, H, W, 3).
+    """
+
+    slots: tuple[Slot, ...]
+    base: np.ndarray
+    images: tuple[tuple[np.ndarray, ...], ...]
+
+    def parts(self, exact: Collection[str]) -> list[np.ndarray]:
+        """The images, (K or 1, H, W, 3) each, whose sum is the composition with these players exact."""
+        chosen = zip(self.slots, self.images, strict=True)
+        return [self.base, *(images[slot.exact_set(exact)] for slot, images in chosen)]
+
+
+class Families:
+    """Layers by variant, each made when it is first asked for.
+
+    Args:
+        frame: (H, W, 3), the frame's radiance. Its own layers are shifted to add up to it: a frame of many samples is
+            taken apart at some of them.
+        at: the frame's points, where the caller has them.
+    """
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        truth: Truth,
+        frame: np.ndarray,
+        at: FramePoints | None = None,
+        report: Report = silent,
+    ) -> None:
+        self._renderer, self._truth, self._frame, self._report = renderer, truth, frame, report
+        self._at = at or FramePoints.of(renderer, truth)
+        self._slots = slots(renderer.plan)
+        self._known: dict[tuple[bool, bool], Layers] = {}
+        self._shift = np.zeros(1)
+        self._coverage, self._material = (player_of(renderer.plan, t) for t in ("coverage", "material"))
+
+    def layers(self, exact: Collection[str]) -> Layers:
+        """The layers of the variant that these players make exact."""
+        variant = self._material in exact, self._coverage in exact
+        if variant not in self._known:
+            make = self._at_offsets if variant[1] else self._at_frame
+            self._known[variant] = make(variant[0])
+        return self._known[variant]
+
+    def _at_frame(self, material_exact: bool) -> Layers:
+        """At the frame's own points; what needs no oracle is the same for all batches."""
+        at, truth = self._at, self._truth
+        points, captures = at.points, at.captures
+        if material_exact and at.exact_points is not points:
+            points = at.exact_points
+            captures = [self._renderer.shade(at_sample(points, n)) for n in range(len(captures))]
+        family = "exact material" if material_exact else "frame"
+        batches = [truth.batch(points, batch, family, at.spp) for batch in range(truth.batches)]
+        ratios = exact_ratios(batches)
+        images = []
+        for slot in self._slots:
+            many = [batches if _is_noisy(slot, which, truth.scene) else batches[:1] for which in slot.sets]
+            images.append(
+                tuple(
+                    np.stack([slot_image(slot, which, captures, batch, ratios) for batch in those])
+                    for which, those in zip(slot.sets, many, strict=True)
+                )
+            )
+        layers = Layers(self._slots, mean_samples(points.emission)[None], tuple(images))
+        if material_exact:
+            self.layers(())  # whose shift is this one's too
+        else:
+            self._shift = self._frame - composition(layers, ())
+        return replace(layers, base=layers.base + self._shift)
+
+    def _at_offsets(self, material_exact: bool) -> Layers:
+        """At random sub-pixel offsets, other ones for every batch."""
+        parts = list(offset_layers(self._renderer, self._truth, self._slots, material_exact, report=self._report))
+        base, *rest = (np.stack(images) for images in zip(*parts, strict=True))
+        images, start = [], 0
+        for slot in self._slots:
+            images.append(tuple(rest[start : start + len(slot.sets)]))
+            start += len(slot.sets)
+        return Layers(self._slots, base, tuple(images))
+
+
+def composition(layers: Layers, exact: Collection[str]) -> np.ndarray:
+    """(K or 1, H, W, 3) float64: the image with these players exact."""
+    return sum(layers.parts(exact), start=np.zeros((1, 1, 1, 3)))
+
+
+def _is_noisy(slot: Slot, which: int, scene: Scene) -> bool:
+    """Whether a slot's image differs from batch to batch: where an exact radiance comes from a Monte Carlo oracle."""
+    closed_form = slot.term == "direct" and not any(isinstance(scene.all_lights[i], AreaLight) for i in slot.lights)
+    return bool(which & 1) and not closed_form
+
+
+def offset_layers(
+    renderer: Renderer,
+    truth: Truth,
+    slots: tuple[Slot, ...] = (),
+    material_exact: bool = True,
+    *,
+    samples: int = MOST_SAMPLES,
+    emission_spp: int = EMISSION_SPP,
+    spp: int | None = None,
+    report: Report = silent,
+) -> Iterator[list[np.ndarray]]:
+    """Batch by batch: base and, slot by slot, set by set, their images (H, W, 3) at random sub-pixel offsets.
+
+    A fixed grid of offsets would leave a residue at silhouettes. Ratios are a batch's own, pooled over nothing: its
+    points are nobody else's.
+
+    Args:
+        slots: what to give separately; where there are none, base is the composition with every term exact (closure).
+        material_exact: whether the points have unfiltered parameters.
+        samples: sub-pixel offsets per batch, at most.
+        emission_spp: samples per pixel of the control variate: the edge of a bright lamp holds most of what shared
+            sub-pixel offsets leave uncertain, and what is seen to emit can be traced by itself.
+        spp: the oracles' samples per point and offset; by default they get the reference's, shared by the offsets.
+    """
+    count, samples = truth.batches, min(truth.reference.spp, samples)
+    spp = spp or max(1, truth.reference.spp // samples)
+    offsets = coverage.evaluate(count, samples, seed=truth.seed + FAMILIES["closure"]) - 0.5
+    # The centre's buffers stand for the rasteriser and the shaders: with others nothing stale is recalled.
+    series = Series.of(
+        "composition",
+        truth.scene,
+        truth.size,
+        truth.reference.spp,
+        truth.seed,
+        samples=(samples, emission_spp, spp),
+        material_exact=material_exact,
+        slots=[(slot.term, slot.players, slot.lights) for slot in slots],
+        centre=digest(renderer.capture(terms=bool(slots))),
+    )
+
+    def make(batch: int) -> dict[str, np.ndarray]:
+        captures = [renderer.capture(tuple(place), terms=bool(slots)) for place in offsets[batch]]
+        points = stack_points([capture.points for capture in captures])
+        if material_exact:
+            points, captures = _with_exact_material(renderer, truth, points, captures, bool(slots))
+        exact = truth.batch(points, batch, "closure", spp, keep=False)
+        variate = truth.emission_variate(offsets[batch], batch, emission_spp)
+        base = mean_samples(points.emission) if slots else exact.composition()
+        ratios = exact_ratios([exact]) if slots else {}
+        images = [base + variate]
+        images += [slot_image(slot, which, captures, exact, ratios) for slot in slots for which in slot.sets]
+        return {f"{i:03d}": image.astype(np.float32) for i, image in enumerate(images)}
+
+    for batch in range(count):
+        report("composition", batch, count)
+        if truth.store is None:
+            layers = make(batch)
+        else:
+            layers, _ = truth.store.recall(series, f"batch-{batch:04d}", lambda b=batch: make(b))
+        yield [layers[name] for name in sorted(layers)]
+    report("composition", count, count)
+
+
+def _with_exact_material(
+    renderer: Renderer, truth: Truth, points: SurfacePoints, captures: list[Capture], shaded: bool
+) -> tuple[SurfacePoints, list[Capture]]:
+    """The points with unfiltered parameters, and the effects' buffers at them where those are wanted."""
+    exact = truth.exact_material(points)
+    if exact is points or not shaded:
+        return exact, captures
+    return exact, [renderer.shade(at_sample(exact, n)) for n in range(len(captures))]
