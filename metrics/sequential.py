@@ -172,12 +172,11 @@ def effective_count(contributions: np.ndarray) -> float:
 
     Infinite where nothing spreads.
     """
-    squares = np.square(contributions, dtype=np.float64)
-    total = float(squares.sum())
-    if total == 0:
+    largest = float(np.abs(contributions).max())
+    if largest == 0:
         return math.inf
-    squares /= squares.max()  # the fourth power of a firefly may exceed float64
-    return float(squares.sum()) ** 2 / float(np.square(squares).sum())
+    squares = np.square(contributions / largest)  # a firefly's fourth power may exceed what a float holds
+    return float(squares.sum(dtype=np.float64)) ** 2 / float(np.square(squares).sum(dtype=np.float64))
 
 
 def squared_contributions(differences: Sequence[np.ndarray]) -> np.ndarray:
