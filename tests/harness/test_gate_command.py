@@ -185,7 +185,7 @@ FAULTS = {
     "region's key": (of_plane("flip", "max = 1", 'region = { objet = "x" }'), "'object'"),
     "two regions": (of_plane("flip", "max = 1", 'region = { object = "x", material = "y" }'), "one of"),
     "background": (of_plane("flip", "max = 1", "region = { background = true }"), "background = false"),
-    "object": (of_plane("flip", "max = 1", 'region = { object = "plan" }'), "'plane'"),
+    "object": (of_plane("flip", "max = 1", 'region = { object = "plane 1" }'), "'plane 0'"),
     "material": (of_plane("flip", "max = 1", 'region = { material = ["gray"] }'), "'grey'"),
     "ratio of the frame": (of_plane("time_ratio", "max = 1"), "effect's"),
     "ratio to itself": (of_plane("time_ratio", "max = 1", 'of = "srgb"\nto = "srgb"'), "itself"),
@@ -271,12 +271,12 @@ def test_a_ratio_of_times_is_one_of_paired_rounds(run, write):
 
 
 def test_a_region_counts_its_pixels_alone(run, write, tmp_path):
-    everywhere = 'scene = "posts"\nmetric = "rmse"\nmax = 9\n'
+    everywhere = 'scene = "posts"\nmetric = "rmse"\nmax = 9\nsize = "48x48"\nspp = 8\n'
     regions = ("background = false", 'object = "rail"', 'material = ["steel", "wood"]')
     write(everywhere, *(f"{everywhere}region = {{ {region} }}\n" for region in regions))
     verdicts = run("gate", "--json").json["verdicts"]
     pixels = [v["pixels"] for v in verdicts]
-    assert pixels[0] == 256 and 0 < pixels[2] < pixels[3] < pixels[1] < 256
+    assert pixels[0] == 48 * 48 and 0 < pixels[2] < pixels[3] < pixels[1] < pixels[0]
     assert verdicts[2]["name"].endswith("rmse on object rail")
     assert len({v["value"] for v in verdicts}) == 4
 
@@ -340,5 +340,5 @@ def test_markdown_and_json_are_written_beside_each_other(run, write, tmp_path):
     import json
 
     verdict = json.loads((tmp_path / "out" / "gate.json").read_text())["verdicts"][2]
-    assert verdict["looks"] == 2 and verdict["samples"] == 16 and verdict["pixels"] == 256
+    assert verdict["looks"] == 3 and verdict["samples"] == 16 and verdict["pixels"] == 256
     assert 0 < verdict["error"] <= 0.001 / 3 and "larger spp" in verdict["reason"]

@@ -11,6 +11,7 @@ from lightmeter.reports.junit import to_junit, write_junit
 from lightmeter.reports.results import Closure, Frame, LeftOut, Results
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.terminal import comparison, metric_table
+from lightmeter.reports.verdict import Verdict
 
 from .synthetic_pairs import make_results
 
