@@ -89,11 +89,13 @@ def main() -> None:
     parser.add_argument("--only", choices=CANDIDATES, nargs="+", default=list(CANDIDATES), metavar="CANDIDATE")
     parser.add_argument("--json", type=Path, metavar="FILE")
     options = parser.parse_args()
-    device, found = Device(), []
+    device, found, console = Device(), [], Console(width=160)
     for name in options.only:
         stored = pool(name, *CANDIDATES[name], SIDE, options.batches, device, options.pool)
-        found += [tally(stored, away, options.gates) for away in AWAY]
-    Console(width=160).print(table(found))
+        for away in AWAY:
+            found.append(tally(stored, away, options.gates))
+            console.print(found[-1], highlight=False)
+    console.print(table(found))
     if options.json:
         document = {"device": fingerprint(device.renderer, device.version), "tallies": [asdict(t) for t in found]}
         options.json.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")

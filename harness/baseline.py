@@ -6,8 +6,9 @@ runs may have drawn the same batches does not matter to this (Boole).
 
 On another device r is widened. Software rasterisers differ in the last bits of quotients and roots, which moves a
 radiance by less than 10⁻³ and now and then flips a comparison with a shadow map's texel: `SAME_KIND` = 0.5 % of the
-error. Graphics processors filter textures with weights of 8 bits and choose mipmaps by rules of their own, which moves a
-filtered value by up to 1/256 of its contrast each: `OTHER_KIND` = 2 %.
+error. Graphics processors filter textures with weights of 8 bits and choose mipmaps by rules of their own, which moves
+a filtered value by up to 1/256 of its contrast each: `OTHER_KIND` = 2 %. Both are round figures above what these
+causes can do to a sound image, not measurements.
 """
 
 import json

@@ -42,8 +42,8 @@ def update(
         if verdict.status == "UNDECIDED":
             half = (stored.high - stored.low) / 2
             lines.append(
-                f"  its interval of ± {show_number(half, 2)} is wide for a regression of {trial.limit.regression:g}, so "
-                "that a gate may stay undecided; a larger spp narrows it"
+                f"  its interval of ± {show_number(half, 2)} is wide for a regression of {trial.limit.regression:g}: "
+                "a gate may stay undecided; a larger spp narrows it"
             )
         baseline.put(trial.name, stored, device)
     baseline.write(path)
@@ -58,4 +58,5 @@ def _stored(trial: Trial, device) -> Stored | None:
     m = found.measurement
     if m.low is None or m.high is None:
         return None
-    return Stored(m.value, m.low, m.high, trial.alpha, verdict.samples, device_digest(device), versions_of(device))
+    value, low, high, error = (float(f"{number:.9g}") for number in (m.value, m.low, m.high, trial.alpha))
+    return Stored(value, low, high, error, verdict.samples, device_digest(device), versions_of(device))

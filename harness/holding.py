@@ -1,7 +1,7 @@
 """Limits held from Python: `hold` for a scene, `hold_images` for two images. A user's own test needs no file.
 
-    verdicts = hold("posts", ["flip <= 0.12", "shadow_map.rmse <= 0.02", "shadow_map.time_ratio to frame <= 0.5"])
-    assert all(verdict.status == "PASS" for verdict in verdicts)
+verdicts = hold("posts", ["flip <= 0.12", "shadow_map.rmse <= 0.02", "shadow_map.time_ratio to frame <= 0.5"])
+assert all(verdict.status == "PASS" for verdict in verdicts)
 """
 
 from collections.abc import Mapping, Sequence

@@ -4,26 +4,28 @@ Looks. A reference is looked at when it has 8 batches, then at numbers that grow
 look j the metric's interval [low, high] gives PASS when all of it keeps within the limit, FAIL when all of it is
 beyond, and else more batches.
 
-Error. Looking again and again until chance obliges is the oldest mistake in testing (Armitage, McPherson and Rowe 1969),
-so the error allowed, α = 1 − confidence, is divided over the looks that are planned, and over the limits that are judged
-together. With α_j for each look, the chance of any wrong verdict is at most Σ α_j = α whatever the looks have to do with
-each other (Boole). Group-sequential tests get more from the looks' correlation: Pocock (1977) and O'Brien and Fleming
-(1979) with fixed numbers of looks, Lan and DeMets (1983) by spending α as a function of time. They need the looks'
-joint distribution to be that of a normal walk, which a jackknife with Student's t at 8 batches has not, and at α this
-small they gain little: for ten looks at α = 0.001 Pocock's bound is z = 3.65 against 3.72 here, 4 % of the batches.
+Error. Looking again and again until chance obliges is the oldest mistake in testing (Armitage, McPherson and Rowe
+1969), so the error allowed, α = 1 − confidence, is divided over the looks that are planned, and over the limits that
+are judged together. With α_j for each look, the chance of any wrong verdict is at most Σ α_j = α whatever the looks
+have to do with each other (Boole). Group-sequential tests get more from the looks' correlation: Pocock (1977) and
+O'Brien and Fleming (1979) with fixed numbers of looks, Lan and DeMets (1983) by spending α as a function of time.
+They need the looks' joint distribution to be that of a normal walk, which a jackknife with Student's t at 8 batches
+has not, and at α this small they gain little: for ten looks at α = 0.001 Pocock's bound is z = 3.65 against 3.72
+here, 4 % of the batches.
 
-One side. A limit that holds can only be misjudged by a FAIL, that is by the lower end of an interval exceeding the truth;
-one that does not hold only by a PASS, by the upper end falling short of it. Whatever the truth is, one end alone can do
-harm, so each may miss with probability α_j: the interval asked for is two-sided at 1 − 2 α_j. A metric judged by its
-magnitude can be misjudged at either end, so it is asked for at 1 − α_j.
+One side. A limit that holds can only be misjudged by a FAIL, that is by the lower end of an interval exceeding the
+truth; one that does not hold only by a PASS, by the upper end falling short of it. Whatever the truth is, one end
+alone can do harm, so each may miss with probability α_j: the interval asked for is two-sided at 1 − 2 α_j. A metric
+judged by its magnitude can be misjudged at either end, so it is asked for at 1 − α_j.
 
-Tails. An interval from the spread of what was seen is right while many samples carry that spread. `effective_count` says
-how many do: n alike ones count as n, whatever else there is. Below `LEAST_COUNT` there is no verdict, since an estimate
-whose spread a few fireflies carry is nothing to fail a build with: a sum of so few is as skewed as a Poisson count, whose
-skewness is 1/√n, and the expansion that lengthens the interval for skewness (`interval.mean_interval`) has its next terms
-of the order of 1/n. It is the idea of looking at the largest weights before trusting a Monte Carlo mean (Koopman,
-Shephard and Creal 2009; Vehtari, Simpson, Gelman, Yao and Gabry 2024), with a count in place of a tail index. Rare samples
-that have not been drawn yet cannot be detected by anyone: against them there is only a minimum of samples.
+Tails. An interval from the spread of what was seen is right while many samples carry that spread. `effective_count`
+says how many do: n alike ones count as n, whatever else there is. Below `LEAST_COUNT` there is no verdict, since an
+estimate whose spread a few fireflies carry is nothing to fail a build with: a sum of so few is as skewed as a Poisson
+count, whose skewness is 1/√n, and the expansion that lengthens the interval for skewness (`interval.mean_interval`)
+has its next terms of the order of 1/n. It is the idea of looking at the largest weights before trusting a Monte Carlo
+mean (Koopman, Shephard and Creal 2009; Vehtari, Simpson, Gelman, Yao and Gabry 2024), with a count in place of a tail
+index. Rare samples that have not been drawn yet cannot be detected by anyone: against them there is only a minimum of
+samples.
 """
 
 import math
@@ -182,8 +184,8 @@ def effective_count(contributions: np.ndarray) -> float:
 def squared_contributions(differences: Sequence[np.ndarray]) -> np.ndarray:
     """(K, N): what every pixel of every batch gives to the squared error's spread.
 
-    Of the U-statistic Σ_{i≠j} ⟨d_i, d_j⟩ batch i and pixel p carry d_ip (Σ_j d_jp − d_ip), summed over the channels: the
-    Hájek projection, from which a batch's own square is left out.
+    Of the U-statistic Σ_{i≠j} ⟨d_i, d_j⟩ batch i and pixel p carry d_ip (Σ_j d_jp − d_ip), summed over the channels:
+    the Hájek projection, from which a batch's own square is left out.
 
     Args:
         differences: K arrays (N, 3), tested minus reference.

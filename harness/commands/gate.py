@@ -12,7 +12,6 @@ from lightmeter.progress import progress_bar
 
 CONFIG = "lightmeter.toml"
 HELD, FAILED, UNDECIDED = 0, 1, 3
-LEAST_SECONDS, MOST_SECONDS = 0.0, 1e6
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +20,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--config", metavar="FILE", default=CONFIG, help="the limits (default %(default)s)")
     parser.add_argument("--seconds", type=options.number, metavar="S", help="time for all verdicts together")
     parser.add_argument(
-        "--confidence", type=options.number, metavar="C", help="that no verdict is wrong (default: the file's, or 0.999)"
+        "--confidence", type=options.number, metavar="C", help="that no verdict is wrong (default: the file's or 0.999)"
     )
     parser.add_argument("--update", action="store_true", help="write the baseline that regressions are held against")
     parser.add_argument("--strict", action="store_true", help="exit with 3 where a limit is undecided")
@@ -73,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _check_budget(args: argparse.Namespace) -> None:
-    if args.seconds is not None and not LEAST_SECONDS < args.seconds <= MOST_SECONDS:
+    if args.seconds is not None and not 0 < args.seconds <= 1e6:
         raise UsageError(f"--seconds: expected a time above 0 and up to 1e6, got {args.seconds:g}")
     if args.confidence is not None and not 0.5 <= args.confidence < 1:
         raise UsageError(f"--confidence: expected 0.5 or more and below 1, got {args.confidence:g}")

@@ -1,6 +1,7 @@
 """Sequential verdicts: what they cost in errors, what they decide, and when they refuse."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ def test_looks_grow_geometrically_and_come_at_whole_groups():
     for most in (8, 9, 63, 65, 100, 256, 300, 1024, 5000):
         looks = plan_looks(most)
         assert looks[0] == (8 if most > 9 else most) and most - group_size(most) < looks[-1] <= most
-        assert all(a < b <= 2.3 * a for a, b in zip(looks[:-1], looks[1:], strict=True))
+        assert all(a < b <= 2.3 * a for a, b in pairwise(looks))
         assert all(k % group_size(k) == 0 and k // group_size(k) <= MOST_GROUPS for k in looks)
     with pytest.raises(ValueError, match="8 batches"):
         plan_looks(7)
