@@ -129,6 +129,32 @@ def reference(
     return collect(images, wanted, seconds, reused)
 
 
+def one_batch(
+    scene: Scene,
+    size: tuple[int, int],
+    spp: int,
+    batch: int,
+    *,
+    seed: int = 0,
+    store: Store | None = None,
+    world: Callable[[], object],
+) -> np.ndarray:
+    """One batch of a scene's reference, (H, W, 3) float32, from the store where it is there.
+
+    Args:
+        batch: its number; batches of one seed are independent of each other, however many samples each has.
+        world: gives the scene's `World`; called only where the store lacks the batch.
+
+    Raises:
+        NoRendererError: Mitsuba cannot run here.
+    """
+
+    def render(spp: int, batch: int) -> np.ndarray:
+        return Renderer(scene, size, seed, world())(spp, batch)
+
+    return _one(series(scene, size, spp, seed), render, batch, store)[0]
+
+
 def reference_in_time(
     scene: Scene,
     size: tuple[int, int],
@@ -174,7 +200,9 @@ def collect(images: list[np.ndarray], of: Series, seconds: float, reused: int) -
     return Reference(stack, of.spp, of.seed, seconds, reused, nonfinite, of.key, of.scene_key)
 
 
-def _one(wanted: Series, renderer: Renderer, batch: int, store: Store | None) -> tuple[np.ndarray, float, bool]:
+def _one(
+    wanted: Series, renderer: Callable[[int, int], np.ndarray], batch: int, store: Store | None
+) -> tuple[np.ndarray, float, bool]:
     """A batch, the seconds it took when it was rendered, and whether it came from the store."""
     name = batch_name(batch)
     found = store.read(wanted, name) if store is not None else None

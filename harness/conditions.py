@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from lightmeter.options import Budget
-
 KnobValue = bool | int | float | str
 
 
@@ -13,11 +11,12 @@ class Conditions:
 
     Attributes:
         size: (width, height).
+        spp: samples per pixel at most.
         settings: (effect, knob, value), sorted.
     """
 
     size: tuple[int, int]
-    budget: Budget
+    spp: int
     seed: int
     camera: str | int | None
     only: tuple[str, ...]
@@ -39,6 +38,6 @@ class Conditions:
         if self.camera is not None:
             found[" camera"] = f"camera {self.camera}"
         found[" size"] = f"{self.size[0]}x{self.size[1]}"
-        found[" budget"] = f"{self.budget.spp} spp" if self.budget.seconds is None else f"{self.budget.seconds:g} s"
+        found[" spp"] = f"{self.spp} spp"
         found[" seed"] = f"seed {self.seed}"
         return found

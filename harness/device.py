@@ -5,6 +5,7 @@ LLVM version are read from Mitsuba and Dr.Jit only where this process has alread
 for a fingerprint never costs the second it takes to load them.
 """
 
+import hashlib
 import importlib.metadata
 import os
 import platform
@@ -38,6 +39,12 @@ def fingerprint(gl_renderer: str | None = None, gl_version: str | None = None) -
         "python": platform.python_version(),
         "os": operating_system(),
     }
+
+
+def device_digest(found: Fingerprint) -> str:
+    """Eight hex digits that machines share when their times may be compared: processor, cores, GL renderer, driver."""
+    told = [str(found[key]) for key in ("cpu", "cores", "gl_renderer", "gl_version")]
+    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:8]
 
 
 def is_software(gl_renderer: str) -> bool:

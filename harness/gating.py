@@ -1,170 +1,283 @@
-"""Holds limits: every scene is compared once per distinct conditions, and every limit judged by what came out."""
+"""Holds limits: draws more of what is undecided, the cheapest first, until all is decided or the budget ends."""
 
+import math
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
-from lightmeter.comparison import Outcome, compare
-from lightmeter.conditions import Conditions
-from lightmeter.failures import UsageError, user_failures
-from lightmeter.groundtruth.store import Store
+from lightmeter.baseline import Baseline, regression_bound
+from lightmeter.cases import Case
+from lightmeter.device import device_digest
+from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
-from lightmeter.limit_scenes import find_scenes, same_scene
-from lightmeter.limits import FRAME, Limit
-from lightmeter.measuring import Question, answer
-from lightmeter.metrics.input_error import InputError
+from lightmeter.limits import FRAME, TIME_MS, Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
+from lightmeter.metrics.sequential import LEAST_COUNT, Bound, Look, error_per_look, look
+from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
-from lightmeter.realtime.discovery import effects
-from lightmeter.realtime.graph import Choice, Plan, compile_plan
-from lightmeter.reports.junit import Verdict
-from lightmeter.scenes.load import load
-from lightmeter.scenes.model import Scene
+from lightmeter.realtime.display import DISPLAY_TERMS
+from lightmeter.reports.verdict import Verdict
 from lightmeter.sides import Sides
-from lightmeter.verdict import explain_verdict, judge
+from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject
+from lightmeter.verdict import bound_of, explain_verdict
+
+PRECISE = 0.25
+"""A baseline is precise enough when its interval's half is no more than this part of the regression it serves."""
 
 
-@dataclass(frozen=True, eq=False)
-class Task:
-    """One comparison, and the limits that it decides.
+@dataclass(eq=False)
+class Trial:
+    """One limit on one scene, until it is decided.
 
     Attributes:
-        name: the scene as the user names it, with what sets this comparison apart from `[defaults]`; unique.
+        bound: None while a baseline is made: then the interval only has to be narrow.
+        alpha: what one look may spend.
+        rule: what is to be said of the bound ("" or the tolerance on another device).
+        last: what the last look found.
+        sides: the images it was on, their means alone; None for a time.
     """
 
-    name: str
-    scene: Scene
-    conditions: Conditions
-    limits: tuple[Limit, ...]
+    limit: Limit
+    case: Case
+    bound: Bound | None
+    alpha: float
+    rule: str = ""
+    verdict: Verdict | None = None
+    last: Look | None = None
+    looks: int = 0
+    sides: Sides | None = None
 
     @property
-    def choice(self) -> Choice:
-        """The effects that take part."""
-        return _choice(self.conditions)
+    def name(self) -> str:
+        """ "posts/shadow_map/rmse", with the region; what a baseline knows it by, too."""
+        words = self.limit.region.words
+        metric = f"{self.limit.metric} to {self.limit.to}" if self.limit.to else self.limit.metric
+        return f"{self.case.name}/{self.limit.of}/{metric}" + (f" {words}" if words else "")
 
 
-@dataclass(frozen=True, eq=False)
-class Judged:
-    """A task's outcome and its limits' verdicts, in the order of `task.limits`."""
+@dataclass(eq=False)
+class Work:
+    """A subject with the trials on it, and the time it has taken."""
 
-    task: Task
-    outcome: Outcome
-    verdicts: tuple[Verdict, ...]
+    subject: Subject
+    trials: list[Trial]
+    spent: float = 0.0
+    next_look: int = 0
+
+    @property
+    def open(self) -> list[Trial]:
+        """What is still undecided."""
+        return [trial for trial in self.trials if trial.verdict is None]
 
 
-def plan_tasks(limits: Sequence[Limit], file: Path, asked: Sequence[str] = ()) -> list[Task]:
-    """The comparisons that the limits need. Everything is checked here, before anything is rendered.
-
-    Args:
-        file: the limits file.
-        asked: names or paths of scenes; empty: all that the limits name.
+def start_trials(
+    pairs: Sequence[tuple[Limit, Case]], confidence: float, baseline: Baseline | None = None
+) -> list[Trial]:
+    """The trials of these limits, the allowed error divided among them.
 
     Raises:
-        UsageError: a scene, an effect or a metric does not exist, or a limit cannot be decided; names the place.
+        UsageError: a regression has no stored value, or a region no pixel.
     """
-    groups: dict[tuple[str, Conditions], list[Limit]] = {}
-    for limit in limits:
-        _check_metric(limit)
-        for source in find_scenes(limit.scene, file, limit.place):
-            groups.setdefault((source, limit.conditions), []).append(limit)
-    sources = list(dict.fromkeys(source for source, _ in groups))
-    for word in asked:
-        if not any(same_scene(word, source) for source in sources):
-            raise UsageError(f"{file} has no limit for the scene {word!r}; {nearest(word, sources)}")
-    chosen = {s for s in sources if not asked or any(same_scene(word, s) for word in asked)}
-    return [
-        _task(source, conditions, tuple(found)) for (source, conditions), found in groups.items() if source in chosen
-    ]
+    trials = []
+    for limit, case in pairs:
+        if not limit.is_time:
+            case.pixels(limit)  # an empty region is said before time is spent
+        trial = Trial(limit, case, None, error_per_look(confidence, len(pairs), 1))
+        if limit.regression is None:
+            trial.bound = bound_of(limit)
+        elif baseline is not None:
+            trial.bound, trial.rule = _baseline_bound(trial, baseline)
+        if limit.regression is not None:
+            trial.alpha /= 2  # the other half is the baseline's
+        trials.append(trial)
+    return trials
 
 
-def run_tasks(
-    tasks: Sequence[Task],
-    store: Store | None = None,
+def _baseline_bound(trial: Trial, baseline: Baseline) -> tuple[Bound, str]:
+    limit = trial.limit
+    stored = baseline.values.get(trial.name)
+    if stored is None:
+        known = f"; {nearest(trial.name, baseline.values)}" if baseline.values else ""
+        raise UsageError(
+            f"{limit.place}: the baseline has no value for {trial.name!r}{known}; write it with `lightmeter gate "
+            "--update`"
+        )
+    device = this_device()
+    more, rule = baseline.tolerance(stored, device_digest(device), device)
+    metric = find_metric(limit.metric)
+    assert limit.regression is not None
+    return regression_bound(stored, limit.regression + more, metric.larger_is_worse, metric.signed), rule
+
+
+def decide(
+    trials: Sequence[Trial],
+    seconds: float | None = None,
     report: Report = silent,
-    say: Callable[[str], None] = lambda _message: None,
-) -> Iterator[Judged]:
-    """Compare and judge, one task after the other."""
-    for done, task in enumerate(tasks):
-        report("scenes", done, len(tasks))
-        start = time.perf_counter()
-        c = task.conditions
-        outcome = compare(task.scene, c.size, c.budget, c.seed, task.choice, store=store, report=report, say=say)
-        measured = [_measurement(outcome, limit) for limit in task.limits]
-        seconds = (time.perf_counter() - start) / len(task.limits)
-        pairs = zip(task.limits, measured, strict=True)
-        yield Judged(task, outcome, tuple(_verdict(task, limit, m, seconds) for limit, m in pairs))
-    report("scenes", len(tasks), len(tasks))
+    clock: Callable[[], float] = time.perf_counter,
+) -> list[Verdict]:
+    """The verdicts, in the order of the trials. Always works on the undecided subject that has taken least time.
+
+    Args:
+        seconds: for all of them together; None: until the samples are spent.
+    """
+    end = math.inf if seconds is None else clock() + seconds
+    works = _works(trials)
+    for work in works:
+        for trial in work.trials:
+            _refuse_device(trial)
+    while waiting := [work for work in works if work.open]:
+        report("verdicts", sum(t.verdict is not None for t in trials), len(trials))
+        work = min(waiting, key=lambda w: w.spent)
+        start = clock()
+        _step(work, lambda: clock() < end)
+        work.spent += clock() - start
+        if work.next_look == len(work.subject.looks):
+            _give_up(work, None)
+        _stamp(work)
+        if clock() >= end:
+            break
+    for work in works:
+        _give_up(work, seconds)
+        _stamp(work)
+    report("verdicts", len(trials), len(trials))
+    return [trial.verdict for trial in trials if trial.verdict is not None]
 
 
-def _verdict(task: Task, limit: Limit, measurement: Measurement, seconds: float) -> Verdict:
-    status = judge(limit, measurement)
+def _give_up(work: Work, seconds: float | None) -> None:
+    """Leave what is open undecided; `seconds`: the time budget, where that has ended."""
+    for trial in work.open:
+        trial.verdict = _undecided(trial, work, seconds)
+
+
+def _stamp(work: Work) -> None:
+    """Note what new verdicts took; once all are there, keep the pictures' means and let the batches go."""
+    for trial in work.trials:
+        if trial.verdict is not None and trial.verdict.seconds == 0:
+            trial.verdict = replace(trial.verdict, seconds=work.spent)
+    if not work.open and isinstance(work.subject, ImageSubject) and work.subject.groups.images:
+        for trial in work.trials:
+            trial.sides = work.subject.means(trial.limit)
+        work.subject.groups.images.clear()
+
+
+def _works(trials: Sequence[Trial]) -> list[Work]:
+    """A subject for each thing that limits are on; the frame's and the display effects' share the reference."""
+    works: dict[tuple[Case, str], Work] = {}
+    for trial in trials:
+        case, of = trial.case, trial.limit.of
+        if trial.limit.is_time:
+            kind, make = "times", lambda case=case: TimeSubject(case)
+        elif of == FRAME or set(case.plan.effects[of][0].terms) & set(DISPLAY_TERMS):
+            kind, make = FRAME, lambda case=case: FrameSubject(case)
+        else:
+            kind, make = f"effect {of}", lambda case=case, of=of: EffectSubject(case, of)
+        if (case, kind) not in works:
+            works[case, kind] = Work(make(), [])
+        works[case, kind].trials.append(trial)
+    return list(works.values())
+
+
+def _step(work: Work, go_on: Callable[[], bool]) -> None:
+    """Draw up to the next look, and look at every open trial."""
+    subject = work.subject
+    _refuse_broken(work)
+    if not work.open or not subject.advance(subject.looks[work.next_look], go_on):
+        return
+    _refuse_broken(work)
+    for trial in work.open:
+        alpha = trial.alpha / len(subject.looks)
+        bound = trial.bound or Bound(math.inf, math.inf)
+        limit = trial.limit
+        found = look(bound, alpha, lambda c, of=limit: subject.measure(of, c), lambda of=limit: subject.count(of))
+        trial.looks += 1
+        trial.last = found
+        if math.isnan(found.measurement.value):
+            trial.verdict = _verdict(trial, work, "FAIL", found.measurement)
+        elif trial.bound is None:
+            if found.side == "within" and _precise(trial.limit, found.measurement):
+                trial.verdict = _verdict(trial, work, "PASS", found.measurement)
+        elif found.side != "open":
+            trial.verdict = _verdict(trial, work, "PASS" if found.side == "within" else "FAIL", found.measurement)
+    work.next_look += 1
+
+
+def _precise(limit: Limit, measurement: Measurement) -> bool:
+    assert limit.regression is not None
+    half = ((measurement.high or 0.0) - (measurement.low or 0.0)) / 2
+    return half <= PRECISE * limit.regression * abs(measurement.value)
+
+
+def _refuse_broken(work: Work) -> None:
+    """What is not finite fails at once."""
+    for trial in work.open:
+        bad = work.subject.broken(trial.limit)
+        if bad:
+            trial.verdict = _verdict(trial, work, "FAIL", Measurement(math.nan, how=f"failed: {bad}"))
+
+
+def _refuse_device(trial: Trial) -> None:
+    """A time in milliseconds says nothing on another device."""
+    limit = trial.limit
+    if limit.metric != TIME_MS:
+        return
+    here = device_digest(this_device())
+    if limit.device != here:
+        reason = f"not judged: the limit was written for device {limit.device}, and this is {here}"
+        trial.verdict = replace(_bare(trial), message=f"time_ms of {limit.of}: {reason}", reason=reason)
+
+
+def _bare(trial: Trial) -> Verdict:
+    limit, case = trial.limit, trial.case
     return Verdict(
-        name=f"{task.name}/{limit.of}/{limit.metric}",
-        status=status,
-        measurement=measurement,
+        name=trial.name,
+        status="UNDECIDED",
+        measurement=None,
         limit=limit.words,
-        message=explain_verdict(limit, measurement, status),
-        seconds=seconds,
+        scene=case.name,
+        of=limit.of,
+        metric=limit.metric,
+        high=limit.high,
+        low=limit.low,
+        regression=limit.regression,
+        pixels=None if limit.is_time else case.pixels(limit),
     )
 
 
-def _check_metric(limit: Limit) -> None:
-    """The metric exists, and the bound is on its bad side."""
-    try:
-        metric = find_metric(limit.metric)
-    except InputError as error:
-        raise UsageError(f"{limit.place}.metric: {error}") from None
-    if metric.larger_is_worse and limit.high is None:
-        raise UsageError(f"{limit.place}: {metric.name} is worse when larger: expected max, got min")
-    if not metric.larger_is_worse and limit.low is None:
-        raise UsageError(f"{limit.place}: {metric.name} is better when larger: expected min, got max")
-    if metric.signed and limit.high is not None and limit.high < 0:
-        raise UsageError(f"{limit.place}: {metric.name} is judged by its magnitude: expected max of 0 or more")
+def _verdict(trial: Trial, work: Work, status, measurement: Measurement) -> Verdict:
+    message = explain_verdict(trial.limit, measurement, status)
+    if trial.bound is not None and trial.limit.regression is not None:
+        message += f" (PASS up to {trial.bound.safe:.5g}, FAIL from {trial.bound.lost:.5g})"
+    if trial.rule:
+        message += f"; {trial.rule}"
+    return replace(
+        _bare(trial),
+        status=status,
+        measurement=measurement,
+        message=message,
+        samples=work.subject.samples,
+        looks=trial.looks,
+        error=trial.looks * trial.alpha / len(work.subject.looks),
+    )
 
 
-def _task(source: str, conditions: Conditions, limits: tuple[Limit, ...]) -> Task:
-    """A task whose limits can all be decided."""
-    place = limits[0].place
-    try:
-        scene = load(source, conditions.camera)
-        plan = compile_plan(scene, effects(), _choice(conditions))
-    except user_failures() as error:
-        raise UsageError(f"{place}: {error}") from None
-    for limit in limits:
-        _check_target(limit, plan, source)
-    variant = limits[0].variant
-    return Task(f"{source} [{variant}]" if variant else source, scene, conditions, limits)
-
-
-def _check_target(limit: Limit, plan: Plan, source: str) -> None:
-    """What the limit is on takes part in the scene's frame."""
-    if limit.of == FRAME or limit.of in plan.effects:
-        return
-    known = effects()
-    if limit.of not in known:
-        raise UsageError(f"{limit.place}.of: there is no effect {limit.of!r}; {nearest(limit.of, [FRAME, *known])}")
-    why = next((item.why for item in plan.left_out if item.what == limit.of), "nothing in this frame needs it")
-    there = ", ".join([FRAME, *plan.effects])
-    raise UsageError(f"{limit.place}.of: {limit.of} takes no part in {source}: {why}; it has: {there}")
-
-
-def _choice(conditions: Conditions) -> Choice:
-    settings: dict[str, dict] = {}
-    for effect, knob, value in conditions.settings:
-        settings.setdefault(effect, {})[knob] = value
-    return Choice(conditions.only, conditions.without, conditions.use, settings)
-
-
-def _measurement(outcome: Outcome, limit: Limit) -> Measurement:
-    """The number that a limit is on: from the results, or measured now."""
-    if limit.of == FRAME:
-        known = outcome.results.frame.metrics
-        sides = Sides([outcome.frame.radiance], outcome.reference)
+def _undecided(trial: Trial, work: Work, seconds: float | None) -> Verdict:
+    """Why a trial is left open."""
+    found = trial.last
+    if found is None:
+        reason = f"the time budget of {seconds:g} s ended before the first look; give more with --seconds"
+        return replace(_bare(trial), message=f"{trial.limit.metric} of {trial.limit.of}: {reason}", reason=reason)
+    count = work.subject.count(trial.limit)
+    if count < LEAST_COUNT:
+        reason = (
+            f"heavy tails: as few as {count:.0f} samples carry the spread, so that no interval can be trusted; "
+            "more samples may help, or a region without the fireflies"
+        )
+    elif found.measurement.low is None:
+        reason = f"no interval: {found.measurement.how}"
+    elif seconds is not None:
+        reason = f"the time budget of {seconds:g} s ended; give more with --seconds"
     else:
-        known = next(effect.metrics for effect in outcome.results.effects if effect.effect == limit.of)
-        sides = outcome.sides[limit.of]
-    if limit.metric in known:
-        return known[limit.metric]
-    return answer(Question((limit.metric,), sides, bounds=True), outcome.display)[limit.metric]
+        reason = f"the budget of {work.subject.samples} samples ended; a larger spp narrows the interval"
+    verdict = _verdict(trial, work, "UNDECIDED", found.measurement)
+    return replace(verdict, message=f"{verdict.message}: {reason}", reason=reason)

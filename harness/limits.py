@@ -1,8 +1,12 @@
 """lightmeter.toml: which limits must hold, for which scenes.
 
+    [budget]
+    seconds = 300               # for all limits together; none: until the samples are spent
+    confidence = 0.999          # that no verdict of the run is wrong
+
     [defaults]
     size = "256x256"
-    spp = 64
+    spp = 1024                  # samples per pixel at most
 
     [[limit]]
     scene = "scenes/*.toml"     # a pattern relative to this file, or a library name
@@ -10,6 +14,19 @@
     metric = "flip"
     max = 0.12                  # min for metrics that are better when larger
     set = { shadow_map.resolution = 2048 }
+
+    [[limit]]
+    scene = "posts"
+    metric = "rmse"
+    regression = 0.02           # no worse than the stored baseline by 2 %
+    region = { background = false }
+
+    [[limit]]
+    scene = "posts"
+    of = "shadow_map"
+    metric = "time_ratio"
+    to = "frame"
+    max = 0.6
 
 What a limit does not say, `[defaults]` says for it.
 """
@@ -23,6 +40,7 @@ from pydantic import AfterValidator, Field, model_validator
 from lightmeter import options
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
+from lightmeter.regions import EVERYWHERE, Region
 from lightmeter.scenes.files import read_bytes
 from lightmeter.scenes.validation import Strict, read_toml
 
@@ -30,6 +48,13 @@ LARGEST = 2**20
 """Bytes of a limits file."""
 
 FRAME = "frame"
+TIME_RATIO, TIME_MS = "time_ratio", "time_ms"
+TIMES = (TIME_RATIO, TIME_MS)
+"""What can be limited beside the metrics of images."""
+
+DEFAULT_SPP = 1024
+DEFAULT_CONFIDENCE = 0.999
+BASELINE = "lightmeter.baseline.json"
 
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=1000)]
 Names = tuple[Name, ...]
@@ -42,11 +67,10 @@ def _size(text: str) -> str:
 
 
 class Setting(Strict):
-    """How a scene is compared; a limit's own keys go before those of `[defaults]`."""
+    """How a scene is judged; a limit's own keys go before those of `[defaults]`."""
 
     size: Annotated[str, AfterValidator(_size)] | None = None
     spp: Annotated[int, Field(strict=True, ge=options.MIN_BATCHES, le=options.MAX_SPP)] | None = None
-    seconds: Annotated[float, Field(strict=True, gt=0, le=1e6, allow_inf_nan=False)] | None = None
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**32)] | None = None
     camera: str | Annotated[int, Field(strict=True, ge=0)] | None = None
     only: Names = ()
@@ -56,11 +80,30 @@ class Setting(Strict):
         default={}, description='Knobs: {shadow_map.resolution = 2048}, or {"shadow_map.resolution" = 2048}.'
     )
 
+
+class RegionEntry(Strict):
+    """Where a limit applies: one of the three."""
+
+    background: Annotated[bool, Field(strict=True)] | None = None
+    object: Name | Names | None = None
+    material: Name | Names | None = None
+
     @model_validator(mode="after")
-    def _one_budget(self):
-        if self.spp is not None and self.seconds is not None:
-            raise ValueError("spp and seconds: give one of them")
+    def _one(self):
+        if len(self.model_fields_set) != 1:
+            raise ValueError("a region is one of background = false, object = NAME and material = NAME")
+        if self.background is True or not (self.background is False or self.object or self.material):
+            raise ValueError("a region is background = false, or at least one name")
         return self
+
+    @property
+    def region(self) -> Region:
+        """The region that is meant."""
+        kind = next(iter(self.model_fields_set))
+        if kind == "background":
+            return Region("surfaces")
+        names = getattr(self, kind)
+        return Region(kind, (names,) if isinstance(names, str) else names)
 
 
 class LimitEntry(Setting):
@@ -71,17 +114,30 @@ class LimitEntry(Setting):
     metric: Name
     max: Bound | None = None
     min: Bound | None = None
+    regression: Annotated[float, Field(strict=True, gt=0, le=10, allow_inf_nan=False)] | None = None
+    to: Name | None = None
+    device: Name | None = None
+    region: RegionEntry | None = None
 
     @model_validator(mode="after")
     def _one_bound(self):
-        if (self.max is None) == (self.min is None):
-            raise ValueError("a limit needs either max or min")
+        if sum(bound is not None for bound in (self.max, self.min, self.regression)) != 1:
+            raise ValueError("a limit needs one of max, min and regression: either max or min is a number's bound")
         return self
+
+
+class BudgetEntry(Strict):
+    """What all verdicts together may cost and how sure they must be."""
+
+    seconds: Annotated[float, Field(strict=True, gt=0, le=1e6, allow_inf_nan=False)] | None = None
+    confidence: Annotated[float, Field(strict=True, ge=0.5, lt=1, allow_inf_nan=False)] = DEFAULT_CONFIDENCE
 
 
 class LimitsFile(Strict):
     """The whole of lightmeter.toml."""
 
+    baseline: Name = BASELINE
+    budget: BudgetEntry = BudgetEntry()
     defaults: Setting = Setting()
     limit: tuple[LimitEntry, ...] = ()
 
@@ -94,8 +150,12 @@ class Limit:
         place: where it is written, for messages.
         scene: the pattern or name as it is written.
         of: "frame", or an effect's name.
-        high, low: the bound; exactly one of them is given.
+        metric: of the registry, or "time_ratio" or "time_ms".
+        high, low, regression: the bound; exactly one of them is given. A regression is a fraction of the baseline.
         variant: what sets its conditions apart from `[defaults]`, in words.
+        to: of a time ratio, what the time is divided by: "frame", or an effect's name.
+        device: of a time, the digest of the device that it was written for.
+        region: which pixels count.
     """
 
     place: str
@@ -106,15 +166,45 @@ class Limit:
     low: float | None
     conditions: Conditions
     variant: str = ""
+    regression: float | None = None
+    to: str | None = None
+    device: str | None = None
+    region: Region = EVERYWHERE
 
     @property
     def words(self) -> str:
-        """ "flip <= 0.12"."""
-        return f"{self.metric} <= {self.high:g}" if self.high is not None else f"{self.metric} >= {self.low:g}"
+        """ "flip <= 0.12", "time_ratio to frame <= 0.3", "rmse <= baseline + 2 % on object ball"."""
+        what = f"{self.metric} to {self.to}" if self.to else self.metric
+        if self.regression is not None:
+            bound = f"at most {100 * self.regression:g} % worse than the baseline"
+        else:
+            bound = f"<= {self.high:g}" if self.high is not None else f">= {self.low:g}"
+        return " ".join(part for part in (what, bound, self.region.words) if part)
+
+    @property
+    def is_time(self) -> bool:
+        """Whether it is on a time, not on an image."""
+        return self.metric in TIMES
 
 
-def read_limits(path: Path) -> list[Limit]:
-    """The limits of a file, in its order.
+@dataclass(frozen=True)
+class Rules:
+    """What a limits file says.
+
+    Attributes:
+        baseline: the file of stored values.
+        seconds: for all verdicts together; None: no limit.
+        confidence: that no verdict is wrong.
+    """
+
+    limits: tuple[Limit, ...]
+    baseline: Path
+    seconds: float | None
+    confidence: float
+
+
+def read_rules(path: Path) -> Rules:
+    """What a limits file says, its limits in its order.
 
     Raises:
         SceneError, UsageError: it is missing, no TOML, or does not follow the schema; the message names the place.
@@ -122,15 +212,28 @@ def read_limits(path: Path) -> list[Limit]:
     file = read_toml(read_bytes(path, LARGEST), LimitsFile, str(path))
     if not file.limit:
         raise UsageError(
-            f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max or min"
+            f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max, min or regression"
         )
-    return [_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit)]
+    limits = tuple(_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit))
+    return Rules(limits, path.parent / file.baseline, file.budget.seconds, file.budget.confidence)
 
 
 def _limit(entry: LimitEntry, defaults: Setting, place: str) -> Limit:
     usual, conditions = _conditions(defaults, defaults, place), _conditions(entry, defaults, place)
-    variant = conditions.beside(usual)
-    return Limit(place, entry.scene, entry.of, entry.metric, entry.max, entry.min, conditions, variant)
+    return Limit(
+        place,
+        entry.scene,
+        entry.of,
+        entry.metric,
+        entry.max,
+        entry.min,
+        conditions,
+        conditions.beside(usual),
+        entry.regression,
+        entry.to,
+        entry.device,
+        entry.region.region if entry.region else EVERYWHERE,
+    )
 
 
 def _conditions(setting: Setting, defaults: Setting, place: str) -> Conditions:
@@ -139,11 +242,9 @@ def _conditions(setting: Setting, defaults: Setting, place: str) -> Conditions:
     def said(name: str) -> Any:
         return getattr(setting if name in setting.model_fields_set else defaults, name)
 
-    budgeted = setting if setting.model_fields_set & {"spp", "seconds"} else defaults
-    spp = None if budgeted.seconds is not None else budgeted.spp or options.DEFAULT_SPP
     return Conditions(
         size=options.size(said("size") or options.DEFAULT_SIZE),
-        budget=options.Budget(spp, budgeted.seconds),
+        spp=said("spp") or DEFAULT_SPP,
         seed=said("seed") or 0,
         camera=said("camera"),
         only=said("only"),

@@ -25,11 +25,15 @@ class Question:
 
     Attributes:
         bounds: whether metrics that noise biases get bounds, for twelve error maps in place of two.
+        mask: (H, W) boolean, True where pixels count; None: all.
+        confidence: of every interval.
     """
 
     names: tuple[str, ...]
     sides: Sides
     bounds: bool = False
+    mask: np.ndarray | None = None
+    confidence: float = 0.95
 
 
 def answers(questions: Mapping[str, Question], display: Display, report: Report) -> dict[str, dict[str, Measurement]]:
@@ -50,7 +54,8 @@ def answers(questions: Mapping[str, Question], display: Display, report: Report)
 def answer(question: Question, display: Display) -> dict[str, Measurement]:
     """The metrics of one pair of sides."""
     sides = question.sides
-    comparison = Comparison(sides.tested[0] if len(sides.tested) == 1 else sides.tested, sides.truth)
+    tested = sides.tested[0] if len(sides.tested) == 1 else sides.tested
+    comparison = Comparison(tested, sides.truth, question.mask, question.confidence)
     linear = sides.space == "scene-linear"
     small = min(comparison.height, comparison.width) < WINDOW
     usable = [name for name in question.names if name != "ssim" or not small]

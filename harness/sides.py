@@ -93,14 +93,14 @@ def effect_sides(
     for name in (material, coverage):
         if name is not None:
             sums[name] = _Sums()
-    composed = material is not None or coverage is not None
+    composed = only is None or material is not None or coverage is not None
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
     exact_points = at.exact_points if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
         at_frame = truth.batch(points, batch, "frame", spp, terms=terms)
         for name in shading:
-            tested, exact = _contribution(plan, name, captures, at_frame)
+            tested, exact = contribution(plan, name, captures, at_frame)
             sums[name].tested.append(mean_samples(tested))
             sums[name].truth.append(mean_samples(exact))
         same = exact_points is points
@@ -145,7 +145,7 @@ def some_offsets(offsets: np.ndarray) -> np.ndarray:
     return offsets[np.linspace(0, len(offsets) - 1, MOST_SAMPLES).round().astype(int)]
 
 
-def _contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
+def contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
     """An effect's buffers and its oracles', in radiance, summed over its terms and lights: (n, H, W, 3) each.
 
     A visibility is weighted with the exact unshadowed radiance: where nothing arrives a wrong shadow costs nothing.

@@ -86,9 +86,9 @@ class Truth:
         self.missing = missing_terms(scene)
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
+        self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
         self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
         self._room = MEMORY
-        self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
 
     @cached_property
     def _world(self):
@@ -117,6 +117,13 @@ class Truth:
             return reference_in_time(self.scene, self.size, seconds=self.budget.seconds, **common)
         spp = self.budget.spp_per_batch
         return reference(self.scene, self.size, spp=spp, batches=self.budget.batches, **common)
+
+    def reference_batch(self, batch: int, spp: int) -> np.ndarray:
+        """(H, W, 3): one batch of the reference by its number, without the others."""
+        from lightmeter.groundtruth.batches import one_batch
+
+        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world}
+        return one_batch(self.scene, self.size, spp, batch, **options)
 
     def exact_material(self, points: SurfacePoints) -> SurfacePoints:
         """The same points with unfiltered parameters; the points themselves where the scene has no textures."""
@@ -158,6 +165,7 @@ class Truth:
         family: str,
         spp: int,
         keep: bool = True,
+        remember: bool = True,
         terms: Collection[str] = tuple(TERMS),
     ) -> ExactBatch:
         """One batch of every term at stacked points.
@@ -165,22 +173,21 @@ class Truth:
         Args:
             family: names the random numbers, so that different points are given independent ones.
             spp: samples per point.
-            keep: whether the store keeps the oracles one by one, and the memory those that are asked for again.
+            keep: whether the store keeps the oracles one by one.
+            remember: whether the memory keeps them for who asks again.
             terms: those that are wanted; the others cost nothing and are missing from the batch.
         """
-        there = frozenset(terms) - set(self.missing)
-        known = self._batches.setdefault(points, {})
-        name = family, batch, spp, there
-        if name in known:
-            return known[name]
-        found = self._make_batch(points, batch, family, spp, keep, there)
-        if keep and self._room >= found.bytes:
+        known, key = self._batches.setdefault(points, {}), (family, batch, spp, frozenset(terms))
+        if key in known:
+            return known[key]
+        found = self._make_batch(points, batch, family, spp, keep, set(terms) - set(self.missing))
+        if keep and remember and self._room >= found.bytes:
             self._room -= found.bytes
-            known[name] = found
+            known[key] = found
         return found
 
     def _make_batch(
-        self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: Collection[str]
+        self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: set[str]
     ) -> ExactBatch:
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}

@@ -1,30 +1,35 @@
-"""Whether a measurement keeps within a limit."""
+"""From a limit and what was measured to a verdict in words."""
 
 import math
 
 from lightmeter.limits import Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
-from lightmeter.reports.junit import Status
+from lightmeter.metrics.sequential import Bound
 from lightmeter.reports.significant import show_number
+from lightmeter.reports.verdict import Status
 
 
-def judge(limit: Limit, measurement: Measurement) -> Status:
-    """PASS where the whole interval keeps within the limit, FAIL where all of it is beyond, else UNDECIDED.
+def bound_of(limit: Limit) -> Bound:
+    """The bound of a limit that names it. Of a signed metric (bias) the magnitude is judged."""
+    signed = not limit.is_time and find_metric(limit.metric).signed
+    number = limit.high if limit.high is not None else limit.low
+    assert number is not None, "a regression's bound is the baseline's"
+    return Bound(number, number, limit.high is not None, signed)
 
-    A metric without an interval is judged by its value and by the value corrected for noise: where they disagree the
-    reference's noise decides, which is no reason to fail. What is not a number fails. Of a signed metric (bias) the
-    magnitude is judged.
+
+def judge(bound: Bound, measurement: Measurement) -> Status:
+    """The verdict on a measurement that is all there will be.
+
+    Without an interval it is a point: of one reference image, taken as exact, there is nothing else to judge. What is
+    not a number fails.
     """
-    value, low, high = _judged(limit, measurement)
-    if math.isnan(value):
+    if math.isnan(measurement.value):
         return "FAIL"
-    worst, best = (high, low) if limit.high is not None else (low, high)
-    if _within(limit, worst):
-        return "PASS"
-    if math.isnan(best) or _within(limit, best) or math.isnan(worst):
-        return "UNDECIDED"
-    return "FAIL"
+    low, high = measurement.low, measurement.high
+    if low is None or high is None:
+        low = high = measurement.value
+    return {"within": "PASS", "beyond": "FAIL", "open": "UNDECIDED"}[bound.side(low, high)]
 
 
 def explain_verdict(limit: Limit, measurement: Measurement, status: Status) -> str:
@@ -39,22 +44,4 @@ def explain_verdict(limit: Limit, measurement: Measurement, status: Status) -> s
     shown = show_number(measurement.value, 5)
     if measurement.low is not None and measurement.high is not None:
         shown += f" ({show_number(measurement.low, 5)} … {show_number(measurement.high, 5)})"
-    if measurement.corrected is not None:
-        shown += f" (corrected for noise: {show_number(measurement.corrected, 5)})"
     return f"{limit.metric} of {limit.of} = {shown} {reason} the limit {limit.words}"
-
-
-def _within(limit: Limit, value: float) -> bool:
-    return value <= limit.high if limit.high is not None else value >= (limit.low or 0.0)
-
-
-def _judged(limit: Limit, measurement: Measurement) -> tuple[float, float, float]:
-    """Value and interval as they are judged; without an interval its ends are the value and the corrected one."""
-    value, low, high = measurement.value, measurement.low, measurement.high
-    if low is None or high is None:
-        corrected = value if measurement.corrected is None else measurement.corrected
-        low, high = min(value, corrected), max(value, corrected)
-    if not find_metric(limit.metric).signed:
-        return value, low, high
-    nearest = 0.0 if low <= 0 <= high else min(abs(low), abs(high))
-    return abs(value), nearest, max(abs(low), abs(high))

@@ -160,14 +160,18 @@ class Renderer:
         return summarise([self.record(frames, warm_up)])
 
     def record(self, frames: int, warm_up: int) -> Recording:
-        """Single times of `frames` frames after `warm_up`: of the whole frame, then of its passes one by one."""
+        """Single times of `frames` frames after `warm_up`: in each round the whole frame, then its passes one by one.
+
+        So a round's times were taken under the same conditions, and their ratio is a paired one.
+        """
         clock = Clock(self.device)
         for _ in range(warm_up):
             self.draw()
-        whole = [clock.measure(self.draw) for _ in range(frames)]
+        whole: list[float] = []
         actions = self._scene_actions(tuple(self.offsets[0])) + self._display_actions()
         passes: list[tuple[str, str, list[float]]] = [(name, effect, []) for name, effect, _ in actions]
         for _ in range(frames):
+            whole.append(clock.measure(self.draw))
             for (_, _, times), (_, _, action) in zip(passes, actions, strict=True):
                 times.append(clock.measure(action))
         return Recording(whole, passes, self._coverage if self._sum else "", clock.method, clock.disagreement)

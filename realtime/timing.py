@@ -42,6 +42,19 @@ class Recording:
     method: str
     disagreement: float
 
+    def rounds(self, effect: str) -> np.ndarray:
+        """(frames,): what an effect's passes took together in each round; the whole frame where `effect` is "".
+
+        What the further samples of a frame cost is the whole less one sample's passes, as in `summarise`.
+        """
+        whole = np.array(self.frame)
+        if not effect:
+            return whole
+        total = np.sum([times for _, name, times in self.passes if name == effect], axis=0) + np.zeros(len(whole))
+        if effect == self.sampling:
+            total += np.maximum(0.0, whole - np.sum([times for _, _, times in self.passes], axis=0))
+        return total
+
 
 @dataclass(frozen=True, eq=False)
 class Times:

@@ -9,38 +9,13 @@ import os
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
-from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.significant import show_measurement
-
-Status = Literal["PASS", "FAIL", "UNDECIDED"]
+from lightmeter.reports.verdict import Verdict
 
 # What XML 1.0 cannot hold, even escaped.
 _UNPRINTABLE = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Whether one limit holds.
-
-    Attributes:
-        name: what was judged, "scene/effect/metric"; the part before the last "/" groups cases.
-        status: "PASS", "FAIL" or "UNDECIDED".
-        measurement: the value with its interval; None where it could not be measured.
-        limit: the limit as it is written ("rmse <= 0.02"), or its number.
-        message: one sentence for people.
-        seconds: how long it took to judge.
-    """
-
-    name: str
-    status: Status
-    measurement: Measurement | None
-    limit: float | str
-    message: str = ""
-    seconds: float = 0.0
 
 
 def to_junit(verdicts: Sequence[Verdict], suite: str = "lightmeter gate", *, strict: bool = False) -> str:
@@ -108,6 +83,8 @@ def _details(verdict: Verdict) -> str:
         lines.append(f"measured: {show_measurement(verdict.measurement)}")
         if verdict.measurement.how:
             lines.append(f"how: {verdict.measurement.how}")
+    if verdict.looks:
+        lines.append(f"samples: {verdict.samples}, looks: {verdict.looks}")
     if verdict.message:
         lines.append(verdict.message)
     return "\n".join(lines)

@@ -2,10 +2,9 @@
 
 import argparse
 import json
-import math
 import re
+import time
 from pathlib import Path
-from typing import Any
 
 from lightmeter import options
 from lightmeter.failures import UsageError
@@ -16,50 +15,83 @@ HELD, FAILED, UNDECIDED = 0, 1, 3
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Scenes, limits, output."""
+    """Scenes, limits, budget, output."""
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="just these of the scenes that have limits")
     parser.add_argument("--config", metavar="FILE", default=CONFIG, help="the limits (default %(default)s)")
-    parser.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
+    parser.add_argument("--seconds", type=options.number, metavar="S", help="time for all verdicts together")
+    parser.add_argument(
+        "--confidence", type=options.number, metavar="C", help="that no verdict is wrong (default: the file's or 0.999)"
+    )
+    parser.add_argument("--update", action="store_true", help="write the baseline that regressions are held against")
     parser.add_argument("--strict", action="store_true", help="exit with 3 where a limit is undecided")
-    parser.add_argument("-o", "--output", metavar="DIR", help="write every comparison's report there")
+    parser.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
+    parser.add_argument("--markdown", metavar="FILE", help="write them for a pull request, heatmaps beside it")
+    parser.add_argument("--json-file", metavar="FILE", help="write them as JSON")
+    parser.add_argument("-o", "--output", metavar="DIR", help="write every comparison's full report there (slow)")
     options.add_store(parser)
     options.add_json(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Compare, judge, tell: 0 all held, 1 one failed, 3 one is undecided and that is not allowed."""
+    """Draw, judge, tell: 0 all held, 1 one failed, 3 one is undecided and that is not allowed."""
     config = Path(args.config)
     if not config.exists():
         raise UsageError(f"{config}: there is no such file; it holds the limits, name it with --config")
-    junit = _writable(Path(args.junit)) if args.junit else None
+    _check_budget(args)
+    files = {name: _writable(getattr(args, name), name) for name in ("junit", "markdown", "json_file")}
     folder = options.output_folder(args.output) if args.output else None
-    from lightmeter.gating import plan_tasks, run_tasks
+    from lightmeter.baseline import read_baseline
+    from lightmeter.gating import decide, start_trials
     from lightmeter.groundtruth.store import Store
-    from lightmeter.limits import read_limits
-    from lightmeter.reports.junit import write_junit
+    from lightmeter.limits import read_rules
+    from lightmeter.planning import plan_cases
 
-    tasks = plan_tasks(read_limits(config), config, args.scenes)
-    store = None if args.no_store else Store(say=options.say)
-    found = []
+    rules = read_rules(config)
+    confidence = rules.confidence if args.confidence is None else args.confidence
+    seconds = rules.seconds if args.seconds is None else args.seconds
+    pairs = plan_cases(rules.limits, config, args.scenes, None if args.no_store else Store(say=options.say))
+    if args.update:
+        return _update(pairs, rules.baseline, confidence, seconds)
+    start = time.perf_counter()
+    trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        for judged in run_tasks(tasks, store, report, options.say):
-            found += [(judged.task, *pair) for pair in zip(judged.task.limits, judged.verdicts, strict=True)]
-            if folder is not None:
-                from lightmeter.output import write_outcome
-
-                write_outcome(folder / _file_name(judged.task.name), judged.outcome)
-    verdicts = [verdict for _, _, verdict in found]
-    if junit is not None:
-        write_junit(junit, verdicts, strict=args.strict)
+        verdicts = decide(trials, seconds, report)
     code = _exit_code(verdicts, args.strict)
+    document = _document(verdicts, code, confidence, time.perf_counter() - start)
+    if folder is not None:
+        _write_reports(folder, trials)
+    _write_files(files, verdicts, trials, document, args.strict)
     if args.json:
-        print(json.dumps(_document(found, code), indent=2, ensure_ascii=False))
+        print(json.dumps(document, indent=2, ensure_ascii=False))
     else:
-        _print_verdicts(verdicts)
-    undecided = sum(v.status == "UNDECIDED" for v in verdicts)
+        _print_verdicts(verdicts, document)
+    undecided = document["undecided"]
     if undecided:
-        options.say(f"{undecided} of {len(verdicts)} limits undecided: a larger spp narrows the intervals")
+        options.say(f"{undecided} of {len(verdicts)} limits undecided: {_first_reason(verdicts)}")
     return code
+
+
+def _check_budget(args: argparse.Namespace) -> None:
+    if args.seconds is not None and not 0 < args.seconds <= 1e6:
+        raise UsageError(f"--seconds: expected a time above 0 and up to 1e6, got {args.seconds:g}")
+    if args.confidence is not None and not 0.5 <= args.confidence < 1:
+        raise UsageError(f"--confidence: expected 0.5 or more and below 1, got {args.confidence:g}")
+
+
+def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:
+    """Write the baseline of the regressions among the limits; 1 where one has no trustworthy value."""
+    from lightmeter.baseline_update import update
+
+    regressions = [(limit, case) for limit, case in pairs if limit.regression is not None]
+    if not regressions:
+        raise UsageError("--update: none of these limits is a regression; write regression = 0.02 in place of max")
+    with progress_bar() as report:
+        lines, refused = update(regressions, path, confidence, seconds, report)
+    for line in lines:
+        print(line)
+    for line in refused:
+        options.say(line)
+    return FAILED if refused else HELD
 
 
 def _exit_code(verdicts, strict: bool) -> int:
@@ -69,80 +101,73 @@ def _exit_code(verdicts, strict: bool) -> int:
     return UNDECIDED if strict and "UNDECIDED" in statuses else HELD
 
 
-def _document(found, code: int) -> dict[str, Any]:
-    """The verdicts for JSON. A number that is not finite is text, as in results.json."""
-    statuses = [verdict.status for _, _, verdict in found]
-    return {
-        "exit": code,
-        "passed": statuses.count("PASS"),
-        "failed": statuses.count("FAIL"),
-        "undecided": statuses.count("UNDECIDED"),
-        "verdicts": [
-            {
-                "scene": task.name,
-                "of": limit.of,
-                "metric": limit.metric,
-                "max": limit.high,
-                "min": limit.low,
-                "status": verdict.status,
-                **{k: _number(getattr(verdict.measurement, k)) for k in ("value", "low", "high", "corrected")},
-                "unit": verdict.measurement.unit,
-                "message": verdict.message,
-                "seconds": round(verdict.seconds, 3),
-            }
-            for task, limit, verdict in found
-        ],
-    }
+def _document(verdicts, code: int, confidence: float, seconds: float) -> dict:
+    from lightmeter.reports.gate_json import to_document
+
+    return {"exit": code, "confidence": confidence, "seconds": round(seconds, 3), **to_document(verdicts)}
 
 
-def _number(value: float | None) -> float | str | None:
-    if value is None or math.isfinite(value):
-        return value
-    return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+def _write_files(files: dict[str, Path | None], verdicts, trials, document: dict, strict: bool) -> None:
+    if path := files["junit"]:
+        from lightmeter.reports.junit import write_junit
+
+        write_junit(path, verdicts, strict=strict)
+    if path := files["json_file"]:
+        path.write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    if path := files["markdown"]:
+        from lightmeter.gate_pictures import error_maps
+        from lightmeter.reports.gate_markdown import write_markdown
+
+        write_markdown(path, verdicts, error_maps(trials), document["confidence"], document["seconds"])
 
 
-def _print_verdicts(verdicts) -> None:
+def _write_reports(folder: Path, trials) -> None:
+    """A full comparison of every case, with as many samples as its verdicts took."""
+    from lightmeter.cases import choice_of
+    from lightmeter.comparison import compare
+    from lightmeter.options import Budget
+    from lightmeter.output import write_outcome
+
+    spp: dict = {}
+    for trial in trials:
+        taken = 0 if trial.limit.is_time else trial.verdict.samples
+        spp[trial.case] = max(spp.get(trial.case, options.DEFAULT_SPP), taken)
+    for case, samples in spp.items():
+        c = case.conditions
+        outcome = compare(case.scene, c.size, Budget(samples), c.seed, choice_of(c), store=case.store, say=options.say)
+        write_outcome(folder / _file_name(case.name), outcome)
+
+
+def _print_verdicts(verdicts, document: dict) -> None:
     """A row per limit, then the sums."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
-    from lightmeter.reports.significant import show_measurement, show_number
+    from lightmeter.reports.gate_table import verdict_table
     from lightmeter.terminal import console
 
-    styles = {"PASS": "green", "FAIL": "bold red", "UNDECIDED": "yellow"}
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("of", overflow="fold")
-    table.add_column("limit", no_wrap=True)
-    table.add_column("measured", overflow="fold")
-    for verdict in verdicts:
-        measurement = verdict.measurement
-        shown = show_measurement(measurement)
-        if measurement.low is None:  # the value as exactly as a limit may be written
-            shown = f"{show_number(measurement.value, 5)} {measurement.unit}".strip()
-        if measurement.corrected is not None:
-            shown += f" (corrected {show_number(measurement.corrected, 5)})"
-        table.add_row(
-            Text(verdict.status, style=styles[verdict.status]),
-            Text(verdict.name.rpartition("/")[0]),
-            Text(str(verdict.limit)),
-            Text(shown),
-        )
     out = console()
-    out.print(table)
-    counts = [f"{sum(v.status == status for v in verdicts)} {status}" for status in styles]
-    out.print(", ".join(counts), highlight=False)
+    out.print(verdict_table(verdicts))
+    counts = ", ".join(f"{document[key]} {word}" for key, word in _COUNTS)
+    out.print(f"{counts}; {document['seconds']:.1f} s at confidence {document['confidence']:g}", highlight=False)
 
 
-def _file_name(task: str) -> str:
-    """A folder's name for a task."""
-    return re.sub(r"[^\w.=+-]+", "-", task).strip("-.") or "scene"
+_COUNTS = (("passed", "PASS"), ("failed", "FAIL"), ("undecided", "UNDECIDED"))
 
 
-def _writable(path: Path) -> Path:
-    """The JUnit file's path, once its folder can be written to."""
+def _first_reason(verdicts) -> str:
+    reasons = [verdict.reason for verdict in verdicts if verdict.reason]
+    return reasons[0] if reasons else "see the table"
+
+
+def _file_name(case: str) -> str:
+    """A folder's name for a case."""
+    return re.sub(r"[^\w.=+-]+", "-", case).strip("-.") or "scene"
+
+
+def _writable(text: str | None, option: str) -> Path | None:
+    """The file's path, once its folder can be written to."""
+    if not text:
+        return None
+    path = Path(text)
     if path.is_dir():
-        raise UsageError(f"--junit: expected a file to write, got the folder {path}")
+        raise UsageError(f"--{option.replace('_', '-')}: expected a file to write, got the folder {path}")
     options.output_folder(path.parent)
     return path

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-DEFAULTS = '[defaults]\nsize = "16x16"\nspp = 8\n'
+DEFAULTS = '[defaults]\nsize = "16x16"\nspp = 16\n'
 
 
 @pytest.fixture
@@ -27,12 +27,8 @@ HOLDS = of_plane("relative_bias", "max = 0.5")
 FAILS = of_plane("nrmse", "max = 1e-9", 'of = "narkowicz"')
 
 
-@pytest.fixture
-def undecided(run, write) -> str:
-    """A limit in the middle of the interval: at the value itself."""
-    write(HOLDS)
-    (verdict,) = run("gate", "--json").json["verdicts"]
-    return of_plane("relative_bias", f"max = {abs(verdict['value'])!r}")
+UNDECIDED = of_plane("rmse", "max = 1e-6")
+"""The plane's frame is all but perfect: no reference of 16 samples tells its error from this."""
 
 
 def test_limits_that_hold(run, write):
@@ -50,19 +46,19 @@ def test_a_limit_that_fails(run, write):
     assert "1 PASS, 1 FAIL" in found.out
 
 
-def test_an_undecided_limit_warns_or_with_strict_stops(run, write, undecided):
-    write(HOLDS, undecided)
+def test_an_undecided_limit_warns_or_with_strict_stops(run, write):
+    write(HOLDS, UNDECIDED)
     found = run("gate")
     assert found.code == 0
     assert "UNDECIDED" in found.out
     assert "1 of 2 limits undecided" in found.err
     assert run("gate", "--strict").code == 3
-    write(undecided, FAILS)
+    write(UNDECIDED, FAILS)
     assert run("gate", "--strict").code == 1
 
 
-def test_json_and_junit_tell_the_same(run, write, undecided, tmp_path):
-    write(HOLDS, FAILS, undecided)
+def test_json_and_junit_tell_the_same(run, write, tmp_path):
+    write(HOLDS, FAILS, UNDECIDED)
     found = run("gate", "--json", "--junit", "reports/junit.xml")
     assert found.code == found.json["exit"] == 1
     assert (found.json["passed"], found.json["failed"], found.json["undecided"]) == (1, 1, 1)
@@ -71,7 +67,7 @@ def test_json_and_junit_tell_the_same(run, write, undecided, tmp_path):
     suite = ET.parse(tmp_path / "reports" / "junit.xml").getroot()
     assert (suite.get("tests"), suite.get("failures"), suite.get("skipped")) == ("3", "1", "1")
     names = [case.get("name") for case in suite.iter("testcase")]
-    assert names == ["plane/frame/relative_bias", "plane/narkowicz/nrmse", "plane/frame/relative_bias"]
+    assert names == ["plane/frame/relative_bias", "plane/narkowicz/nrmse", "plane/frame/rmse"]
 
 
 def test_a_pattern_finds_scenes_beside_the_file(run, write, tmp_path, monkeypatch):
@@ -91,16 +87,16 @@ def test_a_pattern_finds_scenes_beside_the_file(run, write, tmp_path, monkeypatc
     assert [v["scene"] for v in found.json["verdicts"]] == ["../scenes/two.toml"]
 
 
-def test_a_scene_is_compared_once_per_setting(run, write, monkeypatch):
-    from lightmeter import gating
+def test_a_scene_is_drawn_once_per_setting(run, write, monkeypatch):
+    from lightmeter.realtime import renderer
 
-    compared, compare = [], gating.compare
+    rendered, render = [], renderer.Renderer.render
 
-    def record(scene, size, *args, **options):
-        compared.append((scene.name, size))
-        return compare(scene, size, *args, **options)
+    def record(self):
+        rendered.append(self.size)
+        return render(self)
 
-    monkeypatch.setattr(gating, "compare", record)
+    monkeypatch.setattr(renderer.Renderer, "render", record)
     knob = "set = { supersampling.grid = 2 }"
     same_knob = 'set = { "supersampling.grid" = 2 }'
     write(
@@ -113,11 +109,23 @@ def test_a_scene_is_compared_once_per_setting(run, write, monkeypatch):
     )
     found = run("gate", "--json")
     assert found.code == 0, found
-    assert sorted(compared) == [("plane", (16, 12)), ("plane", (16, 16)), ("plane", (16, 16))]
+    assert sorted(rendered) == [(16, 12), (16, 16), (16, 16)]
     names = [v["scene"] for v in found.json["verdicts"]]
     assert names.count("plane") == 3
     assert names.count("plane [supersampling.grid=2]") == 2
     assert names.count("plane [16x12]") == 1
+
+
+def test_limits_on_one_thing_share_its_batches_and_no_other_oracle_runs(run, write, monkeypatch):
+    from lightmeter.groundtruth import oracles
+    from lightmeter.truth import Truth
+
+    asked, batch = [], Truth.reference_batch
+    monkeypatch.setattr(Truth, "reference_batch", lambda self, n, spp: asked.append((n, spp)) or batch(self, n, spp))
+    monkeypatch.setattr(oracles, "find", None)
+    write(of_plane("rmse", "max = 0.5"), of_plane("flip", "max = 0.9"), of_plane("rmse", "max = 0.5", 'of = "srgb"'))
+    assert run("gate", "--no-store").code == 0
+    assert asked == [(n, 1) for n in range(8)]
 
 
 def test_reports_are_written_where_asked(run, write, tmp_path):
@@ -133,21 +141,22 @@ def test_a_frame_that_is_not_finite_fails(run, write, monkeypatch):
 
     import numpy as np
 
-    from lightmeter import comparison
+    from lightmeter import cases
 
-    class Broken(comparison.Renderer):
+    class Broken(cases.Renderer):
         def render(self):
             frame = super().render()
             radiance = frame.radiance.copy()
             radiance[3, 4] = np.nan
             return replace(frame, radiance=radiance)
 
-    monkeypatch.setattr(comparison, "Renderer", Broken)
+    monkeypatch.setattr(cases, "Renderer", Broken)
     write(HOLDS, of_plane("flip", "max = 1"), of_plane("psnr", "min = 0"))
     found = run("gate", "--json")
     assert found.code == 1
     assert {(v["status"], v["value"]) for v in found.json["verdicts"]} == {("FAIL", "NaN")}
     assert "row 3, column 4" in found.json["verdicts"][0]["message"]
+    assert {v["samples"] for v in found.json["verdicts"]} == {0}
 
 
 FAULTS = {
@@ -170,7 +179,23 @@ FAULTS = {
     "no metric": ('scene = "plane"\nmax = 1', "metric"),
     "size": (of_plane("flip", "max = 1", 'size = "16"'), "WxH"),
     "spp": (of_plane("flip", "max = 1", "spp = 4"), "at least 8"),
-    "budget": (of_plane("flip", "max = 1", "spp = 8\nseconds = 1"), "one of them"),
+    "seconds of one": (of_plane("flip", "max = 1", "seconds = 1"), "unknown key 'seconds'"),
+    "three bounds": (of_plane("flip", "max = 1\nregression = 0.1"), "max, min and regression"),
+    "regression of 0": (of_plane("flip", "regression = 0"), "above 0"),
+    "region's key": (of_plane("flip", "max = 1", 'region = { objet = "x" }'), "'object'"),
+    "two regions": (of_plane("flip", "max = 1", 'region = { object = "x", material = "y" }'), "one of"),
+    "background": (of_plane("flip", "max = 1", "region = { background = true }"), "background = false"),
+    "object": (of_plane("flip", "max = 1", 'region = { object = "plane 1" }'), "'plane 0'"),
+    "material": (of_plane("flip", "max = 1", 'region = { material = ["gray"] }'), "'grey'"),
+    "ratio of the frame": (of_plane("time_ratio", "max = 1"), "effect's"),
+    "ratio to itself": (of_plane("time_ratio", "max = 1", 'of = "srgb"\nto = "srgb"'), "itself"),
+    "ratio to nothing": (of_plane("time_ratio", "max = 1", 'of = "srgb"\nto = "fram"'), "'frame'"),
+    "ratio's regression": (of_plane("time_ratio", "regression = 0.1", 'of = "srgb"'), "not comparable"),
+    "time's region": (of_plane("time_ratio", "max = 1", 'of = "srgb"\nregion = { background = false }'), "no region"),
+    "milliseconds": (of_plane("time_ms", "max = 1"), 'device = "'),
+    "time": (of_plane("time_rati", "max = 1"), "'time_ratio'"),
+    "to": (of_plane("flip", "max = 1", 'to = "frame"'), "time_ratio"),
+    "device": (of_plane("flip", "max = 1", 'device = "x"'), "time_ms"),
     "knob": (of_plane("flip", "max = 1", "set = { shadow_map.resoltion = 64 }"), "'resolution'"),
     "knob's value": (of_plane("flip", "max = 1", "set = { shadow_map.resolution = 1 }"), "[16, 8192]"),
     "knob's key": (of_plane("flip", "max = 1", "set = { resolution = 1 }"), "EFFECT.KNOB"),
@@ -181,9 +206,9 @@ FAULTS = {
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_limit_that_makes_no_sense_is_refused_before_any_work(refused, write, monkeypatch, fault):
-    from lightmeter import gating
+    from lightmeter.cases import Case
 
-    monkeypatch.setattr(gating, "compare", None)
+    monkeypatch.setattr(Case, "frame", None)
     text, named = FAULTS[fault]
     write(HOLDS, text)
     message = refused("gate")
@@ -197,6 +222,10 @@ def test_files_that_are_no_limits_are_refused(refused, write, tmp_path):
     assert "no limit" in refused("gate")
     (tmp_path / "lightmeter.toml").write_text("[default]\n")
     assert "'defaults'" in refused("gate")
+    (tmp_path / "lightmeter.toml").write_text("[budget]\nconfidense = 0.9\n")
+    assert "'confidence'" in refused("gate")
+    (tmp_path / "lightmeter.toml").write_text("[budget]\nconfidence = 1\n")
+    assert "below 1" in refused("gate")
     (tmp_path / "lightmeter.toml").write_bytes(b"\xff\xfe")
     assert "TOML" in refused("gate")
     (tmp_path / "folder.toml").mkdir()
@@ -214,3 +243,104 @@ def test_a_junit_file_that_cannot_be_is_found_before_the_work(refused, write, tm
     (tmp_path / "file").write_text("")
     assert "folder" in refused("gate", "--junit", tmp_path)
     assert "file" in refused("gate", "--junit", "file/junit.xml")
+    assert "--seconds" in refused("gate", "--seconds", "0")
+    assert "--confidence" in refused("gate", "--confidence", "1")
+    assert "--markdown" in refused("gate", "--markdown", tmp_path)
+
+
+def test_milliseconds_are_judged_on_their_device_alone(run, write):
+    from lightmeter.device import device_digest
+    from lightmeter.planning import this_device
+
+    here = device_digest(this_device())
+    write(of_plane("time_ms", "max = 1e6", f'device = "{here}"'), of_plane("time_ms", "max = 1e6", 'device = "other"'))
+    found = run("gate", "--json", "--strict")
+    first, second = found.json["verdicts"]
+    assert (first["status"], first["unit"], first["pixels"]) == ("PASS", "ms", None)
+    assert (second["status"], second["value"]) == ("UNDECIDED", None)
+    assert "device other" in second["reason"] and here in second["reason"]
+    assert found.code == 3
+
+
+def test_a_ratio_of_times_is_one_of_paired_rounds(run, write):
+    ratio = of_plane("time_ratio", "max = 1e3", 'of = "cook_torrance"\nto = "srgb"')
+    write(ratio, of_plane("time_ratio", "max = 1e-6", 'of = "cook_torrance"'))
+    found = run("gate", "--json")
+    assert [(v["status"], v["samples"]) for v in found.json["verdicts"]] == [("PASS", 24), ("FAIL", 24)]
+    assert "order statistics" in found.json["verdicts"][0]["message"] or found.json["verdicts"][0]["low"] > 0
+
+
+def test_a_region_counts_its_pixels_alone(run, write, tmp_path):
+    everywhere = 'scene = "posts"\nmetric = "rmse"\nmax = 9\nsize = "48x48"\nspp = 8\n'
+    regions = ("background = false", 'object = "pole 4 cm"', 'material = ["steel", "wood"]')
+    write(everywhere, *(f"{everywhere}region = {{ {region} }}\n" for region in regions))
+    found = run("gate", "--json")
+    assert found.code == 0, found
+    verdicts = found.json["verdicts"]
+    pixels = [v["pixels"] for v in verdicts]
+    assert pixels[0] == 48 * 48 and 0 < pixels[2] < pixels[3] < pixels[1] < pixels[0]
+    assert verdicts[2]["name"].endswith("rmse on object pole 4 cm")
+    assert len({v["value"] for v in verdicts}) == 4
+
+
+def test_a_region_out_of_sight_is_refused(refused, write):
+    write('scene = "posts"\nmetric = "rmse"\nmax = 9\nsize = "1x1"\nregion = { object = "rail" }\n')
+    message = refused("gate")
+    assert "no pixel of posts is on object rail" in message and "limit[0]" in message
+
+
+def test_a_baseline_from_missing_to_regressed(run, refused, write, tmp_path):
+    """Missing, written, held; then a stored value that today's is worse than; then one of another device."""
+    import json
+
+    path = tmp_path / "lightmeter.baseline.json"
+    write(of_plane("rmse", "regression = 0.5", 'of = "narkowicz"'))
+    assert "--update" in refused("gate")
+    found = run("gate", "--update")
+    assert found.code == 0 and "plane/narkowicz/rmse: 0.003" in found.out and "(new" in found.out
+    first = path.read_text()
+    assert run("gate", "--update").code == 0
+    assert path.read_text() == first
+    assert list(json.loads(first)["values"]) == ["plane/narkowicz/rmse"]
+    found = run("gate", "--json")
+    assert found.json["verdicts"][0]["status"] == "PASS", found
+
+    def store(**changes) -> None:
+        document = json.loads(first)
+        document["values"]["plane/narkowicz/rmse"] |= changes
+        path.write_text(json.dumps(document))
+
+    store(value=0.001, low=0.00099, high=0.00101)
+    found = run("gate", "--json")
+    assert (found.code, found.json["verdicts"][0]["status"]) == (1, "FAIL")
+    store(value=0.002, low=0.0001, high=0.1)
+    assert run("gate", "--json").json["verdicts"][0]["status"] == "UNDECIDED"
+    store(device="elsewhere")
+    found = run("gate", "--json")
+    assert "device elsewhere" in found.json["verdicts"][0]["message"]
+    assert "2 % more" in found.json["verdicts"][0]["message"]
+    for damaged in ("{", "[]", first.replace('"schema": 1', '"schema": 9'), first.replace('"low"', '"lwo"')):
+        path.write_text(damaged)
+        assert "lightmeter.baseline.json" in refused("gate")
+    write(HOLDS)
+    assert "regression" in refused("gate", "--update")
+
+
+def test_markdown_and_json_are_written_beside_each_other(run, write, tmp_path):
+    from PIL import Image
+
+    write(HOLDS, FAILS, UNDECIDED)
+    found = run("gate", "--markdown", "out/comment.md", "--json-file", "out/gate.json")
+    assert found.code == 1
+    text = (tmp_path / "out" / "comment.md").read_text()
+    assert text.startswith("### ❌ lightmeter: 1 failed, 1 undecided, 1 held")
+    assert "plane/narkowicz" in text.split("<details>")[0]
+    for name in ("comment.1.png", "comment.2.png"):
+        assert f"![FLIP]({name})" in text
+        with Image.open(tmp_path / "out" / name) as picture:
+            assert picture.size == (160, 160)
+    import json
+
+    verdict = json.loads((tmp_path / "out" / "gate.json").read_text())["verdicts"][2]
+    assert verdict["looks"] == 3 and verdict["samples"] == 16 and verdict["pixels"] == 256
+    assert 0 < verdict["error"] < 0.001 / 2.9 and "larger spp" in verdict["reason"]

@@ -7,10 +7,11 @@ from rich.console import Console
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.closure import closure_statement
-from lightmeter.reports.junit import Verdict, to_junit, write_junit
+from lightmeter.reports.junit import to_junit, write_junit
 from lightmeter.reports.results import Closure, Frame, LeftOut, Results
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.terminal import comparison, metric_table
+from lightmeter.reports.verdict import Verdict
 
 from .synthetic_pairs import make_results
 

@@ -1,0 +1,160 @@
+"""Limits held from Python: `hold` for a scene, `hold_images` for two images. A user's own test needs no file.
+
+verdicts = hold("posts", ["flip <= 0.12", "shadow_map.rmse <= 0.02", "shadow_map.time_ratio to frame <= 0.5"])
+assert all(verdict.status == "PASS" for verdict in verdicts)
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from lightmeter.conditions import Conditions, KnobValue
+from lightmeter.failures import UsageError
+from lightmeter.gating import Trial, decide, start_trials
+from lightmeter.groundtruth.store import Store
+from lightmeter.image_pair import ImagePair
+from lightmeter.limit_text import parse_limit
+from lightmeter.limits import DEFAULT_CONFIDENCE, DEFAULT_SPP, FRAME, Limit
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.registry import find_metric
+from lightmeter.planning import check_metric, check_target, make_case
+from lightmeter.reports.verdict import Verdict
+from lightmeter.scenes.model import Scene
+from lightmeter.scenes.optics.color import srgb_encode
+from lightmeter.verdict import bound_of, explain_verdict, judge
+
+Knobs = Mapping[str, Mapping[str, KnobValue]]
+
+
+def conditions(
+    size: tuple[int, int] = (512, 512),
+    spp: int = DEFAULT_SPP,
+    seed: int = 0,
+    camera: str | int | None = None,
+    only: Sequence[str] = (),
+    without: Sequence[str] = (),
+    use: Sequence[str] = (),
+    knobs: Knobs | None = None,
+) -> Conditions:
+    """How a scene is judged: the keys of `[defaults]` in lightmeter.toml; `knobs` is its `set`."""
+    settings = sorted((effect, knob, value) for effect, of in (knobs or {}).items() for knob, value in of.items())
+    return Conditions(tuple(size), spp, seed, camera, tuple(only), tuple(without), tuple(use), tuple(settings))
+
+
+def hold(
+    scene: str | Path | Scene,
+    limits: Sequence[str | Limit],
+    how: Conditions | None = None,
+    *,
+    seconds: float | None = None,
+    confidence: float = DEFAULT_CONFIDENCE,
+    store: Store | None = None,
+) -> list[Verdict]:
+    """Judge a scene's frame and effects.
+
+    Args:
+        scene: a library name, a path, or a scene.
+        limits: as text (`limit_text.FORM`), or `Limit` objects, which bring their own conditions.
+        how: `conditions(…)` for the limits given as text; the usual ones when None.
+        seconds: for all limits together; None: until the samples are spent.
+        confidence: that no verdict is wrong.
+        store: where batches are kept; None: nowhere.
+
+    Returns:
+        A verdict for each limit, in their order.
+
+    Raises:
+        UsageError: a limit, an effect, a metric or the scene makes no sense.
+    """
+    return [trial.verdict for trial in hold_trials(scene, limits, how, seconds, confidence, store) if trial.verdict]
+
+
+def hold_trials(
+    scene: str | Path | Scene,
+    limits: Sequence[str | Limit],
+    how: Conditions | None = None,
+    seconds: float | None = None,
+    confidence: float = DEFAULT_CONFIDENCE,
+    store: Store | None = None,
+) -> list[Trial]:
+    """As `hold`, with what the verdicts rest on: cases, and images for a report (`gate_pictures.error_maps`)."""
+    source = scene if isinstance(scene, Scene) else str(scene)
+    usual = how or conditions()
+    cases = {}
+    pairs = []
+    for given in limits:
+        limit = given if isinstance(given, Limit) else parse_limit(given, usual, str(source))
+        if limit.regression is not None:
+            raise UsageError(f"{limit.place}: a regression needs a baseline: hold it with `lightmeter gate`")
+        check_metric(limit)
+        if limit.conditions not in cases:
+            cases[limit.conditions] = make_case(source, limit, store)
+        check_target(limit, cases[limit.conditions])
+        pairs.append((limit, cases[limit.conditions]))
+    trials = start_trials(pairs, confidence)
+    decide(trials, seconds)
+    return trials
+
+
+def hold_images(
+    tested: ImagePair | np.ndarray,
+    reference: np.ndarray | None,
+    limits: Sequence[str],
+    *,
+    confidence: float = DEFAULT_CONFIDENCE,
+) -> list[Verdict]:
+    """Judge an image by another one, or by several batches of it.
+
+    Args:
+        tested: (H, W, 3) scene-linear; or a pair that `image_pair.pair` read from two files, and no `reference`.
+        reference: (H, W, 3), taken as exact; or (K, H, W, 3), K independent noisy batches of it.
+        limits: as text, of the frame. Scene-linear images are clipped and encoded as sRGB for display metrics.
+
+    Returns:
+        A verdict for each limit, in their order: of the image as it is, so that one is UNDECIDED only where the
+        reference comes as batches.
+
+    Raises:
+        UsageError: a limit makes no sense for images.
+        InputError: the images cannot be compared.
+    """
+    return [_image_verdict(tested, reference, text, 1 - (1 - confidence) / max(1, len(limits))) for text in limits]
+
+
+def _image_verdict(tested: ImagePair | np.ndarray, reference: np.ndarray | None, text: str, confidence: float):
+    limit = parse_limit(text, conditions(), "images")
+    if limit.of != FRAME or limit.is_time or limit.region.words:
+        raise UsageError(f"{limit.place}: two images have no effects, times or regions: expected METRIC <= NUMBER")
+    check_metric(limit)
+    metric, bound = find_metric(limit.metric), bound_of(limit)
+    shown = metric.domain == "display"
+    options = {}
+    if isinstance(tested, ImagePair):
+        sides = (tested.tested_shown, tested.reference_shown) if shown else (tested.tested, tested.reference)
+    else:
+        assert reference is not None
+        sides = np.asarray(tested), np.asarray(reference)
+        options = {"display": lambda image: srgb_encode(np.clip(image, 0.0, 1.0))} if shown else {}
+    two_sided = confidence if bound.magnitude else 1 - 2 * (1 - confidence)
+    comparison = Comparison(*sides, confidence=two_sided)
+    found = metric.function(comparison, **options)
+    status = judge(bound, found)
+    unit = "" if "W/sr" in found.unit else found.unit
+    return Verdict(
+        name=f"images/{FRAME}/{limit.metric}",
+        status=status,
+        measurement=replace(found, unit=unit),
+        limit=limit.words,
+        message=explain_verdict(limit, found, status),
+        scene="images",
+        of=FRAME,
+        metric=limit.metric,
+        high=limit.high,
+        low=limit.low,
+        looks=1,
+        error=1 - confidence,
+        pixels=comparison.width * comparison.height,
+        reason="the reference's noise leaves it open" if status == "UNDECIDED" else "",
+    )
