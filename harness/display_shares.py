@@ -62,7 +62,7 @@ def attribute_display(plan: Plan, reference: np.ndarray) -> Attribution | None:
 
 
 def _displayed(plan: Plan, image: np.ndarray, exact: tuple[str, ...]) -> np.ndarray:
-    """(H, W, 3) float32 code values of an exposed image with these effects exact; a term that none gives is left out."""
+    """(H, W, 3) float32 code values of an exposed image with these effects exact. A term without effect is left out."""
     for term, oracle in (("tone", tone), ("encode", encode)):
         name = plan.effect_of(term)
         if name in exact:
