@@ -80,8 +80,9 @@ are too. A gate counts how many samples carry the spread, and leaves such a refe
 
 ## Bounds of metrics that noise biases
 
-{bound_trials} trials each: coverage in per cent. An exact 95 % gives less than {bound_fewest} with a probability of
-{doubt}; such figures are bold.
+{bound_trials} trials each, batches of one sample: coverage in per cent. An exact 95 % gives less than {bound_fewest}
+with a probability of {doubt}; such figures are bold. What falls short is the worst tile of fireflies: where its error
+is one rare bright sample, most draws have not met it.
 
 | scene | image | batches | {bound_names} |
 | --- | --- | ---: | {rule} |
