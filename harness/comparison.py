@@ -14,6 +14,7 @@ from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.finite import find_non_finite
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.object_errors import object_errors
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.device import Device
@@ -62,6 +63,7 @@ class Outcome:
         sides: effect to what was compared.
         display: the frame's display transform.
         shares: of the frame's error; None where they were not asked for, or the frame is not finite.
+        lacking: term that no effect approximates to the image without it and with it, everything else exact.
     """
 
     results: outcome.Results
@@ -71,6 +73,7 @@ class Outcome:
     display: Callable[[np.ndarray], np.ndarray]
     plan: Plan
     shares: Shares | None
+    lacking: dict[str, Sides]
 
 
 def compare(
@@ -114,10 +117,11 @@ def compare(
     display = display_transform(plan)
     at = FramePoints.of(renderer, truth)
     sides = effect_sides(renderer, truth, report, at) | display_sides(plan, reference.batches)
-    shared = None
+    shared, lacking = None, {}
     if shares and not _nonfinite(frame, sides).total():
         families, among = Families(renderer, truth, frame.radiance, at, report), players(plan)
         shared = attribute(among, plan.effects, families, reference.batches, display, report)
+        lacking = {name: _lacking(families, tuple(among), name) for name in among if name not in plan.effects}
         closed = composition(families.layers(tuple(among)), tuple(among)).astype(np.float32)
     else:
         closed = closure_batches(renderer, truth, report=report)
@@ -153,8 +157,18 @@ def compare(
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,
+        objects=object_errors(
+            scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
+        ),
     )
-    return Outcome(results, frame, reference.batches, sides, display, plan, shared)
+    return Outcome(results, frame, reference.batches, sides, display, plan, shared, lacking)
+
+
+def _lacking(families: Families, everyone: tuple[str, ...], term: str) -> Sides:
+    """The image without a term that no effect gives, and with it; everything else is exact."""
+    others = tuple(name for name in everyone if name != term)
+    without, with_it = (composition(families.layers(exact), exact) for exact in (others, everyone))
+    return Sides([image.astype(np.float32) for image in without], [image.astype(np.float32) for image in with_it])
 
 
 def _order(plan: Plan) -> list[str]:

@@ -13,13 +13,13 @@ from lightmeter.reports.sweep_results import METRICS, CurvePoint
 from lightmeter.sides import Sides
 from lightmeter.truth import Truth
 
-IMAGES = 5
-"""Images per sample count, each with random numbers of its own."""
-MOST_SECONDS = 20.0
-"""Rendering time of the whole curve, about."""
+IMAGES = 3
+"""Images per sample count, each with random numbers of its own; an odd number, so that one is in the middle."""
 
 
-def convergence(truth: Truth, display: Display, goal: Mapping[str, float], report: Report) -> Iterator[CurvePoint]:
+def convergence(
+    truth: Truth, display: Display, goal: Mapping[str, float], seconds: float, report: Report
+) -> Iterator[CurvePoint]:
     """The curve at 1, 2, 4, … samples per pixel, until every goal is reached or the time is spent.
 
     Each image is timed and held against the reference, which is independent of it. A point has the median time and
@@ -27,6 +27,7 @@ def convergence(truth: Truth, display: Display, goal: Mapping[str, float], repor
 
     Args:
         goal: metric to the error that is to be reached.
+        seconds: rendering time of the whole curve, about; there is one point at least.
     """
     number = 0
 
@@ -41,17 +42,17 @@ def convergence(truth: Truth, display: Display, goal: Mapping[str, float], repor
         image(spp)
     spent, spp = 0.0, 1
     while True:
-        report("path tracer", int(10 * min(spent, MOST_SECONDS)), int(10 * MOST_SECONDS))
+        report("path tracer", int(10 * min(spent, seconds)), int(10 * seconds))
         made = [image(spp) for _ in range(IMAGES)]
-        seconds = [took for took, _ in made]
-        spent += sum(seconds)
+        took = [one for one, _ in made]
+        spent += sum(took)
         errors = [
             answer(Question(METRICS, Sides([picture], list(truth.reference.batches))), display) for _, picture in made
         ]
-        point = CurvePoint(spp, _timing(seconds), {name: _median([e[name] for e in errors]) for name in METRICS})
+        point = CurvePoint(spp, _timing(took), {name: _median([e[name] for e in errors]) for name in METRICS})
         yield point
         reached = all(point.metrics[name].value <= goal[name] for name in METRICS)
-        if reached or spent + 2 * sum(seconds) > MOST_SECONDS:
+        if reached or spent + 2 * sum(took) > seconds:
             break
         spp *= 2
     report("path tracer", 1, 1)

@@ -2,7 +2,7 @@
 
 FLIP needs a picture per set. The reference is filtered once for all of them, sets that differ by players which change
 nothing are one, and pictures are composed and compared two at a time. Noise biases FLIP, so every set is also compared
-at halves and quarters of the batches, which tells how far (see metrics/noisy_mean.py).
+at halves of the batches, which tells how far (see metrics/noise_bound.py).
 """
 
 from collections.abc import Callable
@@ -15,18 +15,13 @@ from lightmeter.families import Layers
 from lightmeter.game import Game
 from lightmeter.metrics.flip import FlipAgainst
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.noise_bound import QUARTERS, SPLITS, signed_bound
 from lightmeter.progress import Report, silent
-from lightmeter.squared_shares import sampling_error
+from lightmeter.squared_shares import CONFIDENCE, sampling_error
 
 WORKERS = 2
 _SAME = 1e-6
 """Images whose RMS difference is below this fraction of the reference's RMS are one: a few float32 roundings."""
-
-
-def noise_bound(full, halves, quarters):  # placeholder until the metrics' own
-    d = float(np.mean(halves)) - full
-    se = float(np.std(quarters, ddof=1)) / 2 * 3.18
-    return Measurement(full, min(full, full - 3.65 * d) - se, max(full, full - 3.65 * d) + se, corrected=full - d)
 
 
 Display = Callable[[np.ndarray], np.ndarray]
@@ -34,18 +29,16 @@ Display = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, eq=False)
 class FlipErrors:
-    """Mean FLIP of every set at the mean of all batches, of each half, and of each quarter.
+    """Mean FLIP of every set.
 
     Attributes:
-        full: (m,).
-        halves: (2, m).
-        quarters: (4, m).
+        full: (m,), at the mean of all batches.
+        halves: (3, 2, m), at the mean of each half of three ways to halve them.
     """
 
     game: Game
     full: np.ndarray
     halves: np.ndarray
-    quarters: np.ndarray
 
     def share(self, player: int) -> Measurement:
         """A player's Shapley share, signed."""
@@ -66,10 +59,10 @@ class FlipErrors:
     def _measured(self, weights: np.ndarray, what: str) -> Measurement:
         """A linear combination of the sets' errors: (p, m) weights, p samples of orders."""
         samples, mean = weights @ self.full, weights.mean(axis=0)
-        found = noise_bound(float(samples.mean()), self.halves @ mean, self.quarters @ mean)
-        half = sampling_error(samples)
-        how = f"{what} at the mean of {len(self.game.reference)} batches"
-        return Measurement(found.value, found.low - half, found.high + half, "", how, corrected=found.corrected)
+        value, half = float(samples.mean()), sampling_error(samples)
+        low, high = signed_bound(value, self.halves @ mean, CONFIDENCE)
+        how = f"{what} at the mean of {len(self.game.reference)} batches, bound from fewer batches"
+        return Measurement(value, low - half, high + half, "", how)
 
 
 def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[FlipErrors, dict[str, np.ndarray]]:
@@ -79,7 +72,9 @@ def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[
         display: maps (H, W, 3) scene-linear to display values, put on both sides.
     """
     batches, count = len(game.reference), len(game.orders.sets)
-    groups = [range(batches), *(range(i, batches, 2) for i in range(2)), *(range(i, batches, 4) for i in range(4))]
+    quarters = [list(range(quarter, batches, 4)) for quarter in QUARTERS]
+    halves = [sorted(b for quarter in half for b in quarters[quarter]) for split in SPLITS for half in split]
+    groups = [list(range(batches)), *halves]
     values = np.zeros((len(groups), count))
     weights, maps = game.orders.mean, np.zeros((len(game.names), *game.reference.shape[1:3]))
     changes = _players_that_change_something(game)
@@ -104,7 +99,7 @@ def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[
                             maps[player] += weights[player, places].sum() * found
                     done += 1
                     report("shares of FLIP", done, len(groups) * len(game.orders.sets))
-    errors = FlipErrors(game, values[0], values[1:3], values[3:])
+    errors = FlipErrors(game, values[0], values[1:].reshape(len(SPLITS), 2, count))
     return errors, dict(zip(game.names, maps.astype(np.float32), strict=True))
 
 
@@ -114,15 +109,15 @@ def _parts(layers: Layers, game: Game, sets) -> list[np.ndarray]:
     return list(found.values())
 
 
-def _mean(stack: np.ndarray, batches: range) -> np.ndarray:
+def _mean(stack: np.ndarray, batches: list[int]) -> np.ndarray:
     """(H, W, 3) float32: the mean over some batches of (K or 1, H, W, 3)."""
-    chosen = stack[list(batches)] if len(stack) > 1 else stack
+    chosen = stack[batches] if len(stack) > 1 else stack
     return chosen.mean(axis=0, dtype=np.float64).astype(np.float32)
 
 
 def _players_that_change_something(game: Game) -> int:
     """The set of players whose exactness changes an image or the points that it is composed at."""
-    scale = float(np.sqrt(np.mean(_mean(game.reference, range(len(game.reference))) ** 2, dtype=np.float64)))
+    scale = float(np.sqrt(np.mean(_mean(game.reference, list(range(len(game.reference)))) ** 2, dtype=np.float64)))
     found = 0
     variants = [layers for layers, _ in game.by_variant()]
     for i, name in enumerate(game.names):

@@ -26,8 +26,8 @@ def visits(effect: Effect, current: Knobs, words: Sequence[str] = ()) -> list[Vi
 
     Args:
         current: every knob's value where nothing is varied.
-        words: "NAME" or "NAME=v1,v2,…"; several give their full grid. None: every knob that declares values for a
-            sweep, one at a time.
+        words: "NAME" or "NAME=v1,v2,…"; several give their full grid, none at all every knob that declares values
+            for a sweep, one at a time.
 
     Raises:
         UsageError: a knob is named twice or has no values, or there is nothing to vary.

@@ -10,8 +10,9 @@ from lightmeter.measuring import clipped
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
-from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, signed_error
+from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, share_map, signed_error
 from lightmeter.reports.results import to_json
+from lightmeter.scenes.terms import TERMS
 from lightmeter.sides import Sides
 
 RADIANCE = "W/sr/m²"
@@ -24,45 +25,26 @@ def write_outcome(folder: Path, outcome: Outcome) -> Path:
 
 def pictures(outcome: Outcome) -> list[Pair]:
     """The frame against the reference, then every effect against its oracle."""
-    frame = Sides([outcome.frame.radiance], outcome.reference)
-    unapproximated = tuple(
-        share
-        for player in (outcome.results.attribution.players if outcome.results.attribution else ())
-        if not player.approximated
-        for share in _share_maps(outcome, player.name, f" of {player.name}")
-    )
-    pairs = [_pair("frame", "Frame", (), frame, outcome, "The whole frame.", unapproximated)]
+    whole = Sides([outcome.frame.radiance], outcome.reference)
+    pairs = [_pair("frame", (), whole, outcome, "The whole frame.", "Frame")]
     for name, sides in outcome.sides.items():
         effect = outcome.plan.effects[name][0]
-        pairs.append(_pair(name, name, effect.terms, sides, outcome, effect.summary, _share_maps(outcome, name)))
+        pairs.append(_pair(name, effect.terms, sides, outcome, effect.summary))
+    for name, sides in outcome.lacking.items():
+        meaning = f"Not approximated: everything else is exact. {TERMS[name].meaning.capitalize()}."
+        pairs.append(_pair(name, (name,), sides, outcome, meaning))
     return pairs
 
 
-def _share_maps(outcome: Outcome, player: str, suffix: str = "") -> tuple[ErrorMap, ...]:
+def _share_maps(outcome: Outcome, player: str) -> tuple[ErrorMap, ...]:
     """Where in the image a player's shares of the frame's error lie."""
-    titles = {"flip": "Share of the frame's FLIP", "mse": "Share of the frame's squared error"}
     units = {"flip": "", "mse": f"({RADIANCE})²"}
-    return tuple(
-        ErrorMap(
-            f"share_{metric}{suffix.replace(' of ', '_')}",
-            titles[metric] + suffix,
-            maps[player],
-            units[metric],
-            "signed",
-        )
-        for metric, maps in (outcome.shares.maps.items() if outcome.shares else ())
-        if player in maps
-    )
+    shares = outcome.shares.maps if outcome.shares else {}
+    return tuple(share_map(metric, maps[player], units[metric]) for metric, maps in shares.items() if player in maps)
 
 
 def _pair(
-    name: str,
-    title: str,
-    terms: tuple[str, ...],
-    sides: Sides,
-    outcome: Outcome,
-    caption: str,
-    shares: tuple[ErrorMap, ...] = (),
+    name: str, terms: tuple[str, ...], sides: Sides, outcome: Outcome, caption: str, title: str | None = None
 ) -> Pair:
     tested = np.mean(sides.tested, axis=0, dtype=np.float64).astype(np.float32)
     truth = np.mean(sides.truth, axis=0, dtype=np.float64).astype(np.float32)
@@ -73,10 +55,10 @@ def _pair(
         flip_error(ldr_flip(display(tested), display(truth))),
         rms_error(tested, truth, unit),
         signed_error(tested, truth, unit),
-        *shares,
+        *_share_maps(outcome, name),
     )
     space = "scene-linear" if linear else "display"
-    return Pair(name, title, terms, tested, truth, errors, space=space, unit=unit, caption=caption)
+    return Pair(name, title or name, terms, tested, truth, errors, space=space, unit=unit, caption=caption)
 
 
 def display_curve(outcome: Outcome) -> DisplayCurve:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -48,14 +49,18 @@ class FramePoints:
     Attributes:
         captures: what the effects gave at each of them.
         points: (n, H, W), as the G-buffer holds them.
-        exact_points: the same points with unfiltered parameters; `points` itself where the scene has no textures.
         spp: samples per point of the oracles.
     """
 
+    truth: Truth
     captures: list[Capture]
     points: SurfacePoints
-    exact_points: SurfacePoints
     spp: int
+
+    @cached_property
+    def exact_points(self) -> SurfacePoints:
+        """The same points with unfiltered parameters; `points` itself where the scene has no textures."""
+        return self.truth.exact_material(self.points)
 
     @classmethod
     def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
@@ -63,7 +68,7 @@ class FramePoints:
         offsets = some_offsets(renderer.offsets)
         captures = [renderer.capture(tuple(offset)) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
-        return cls(captures, points, truth.exact_material(points), max(1, truth.reference.spp // len(offsets)))
+        return cls(truth, captures, points, max(1, truth.reference.spp // len(offsets)))
 
 
 def effect_sides(
@@ -80,17 +85,17 @@ def effect_sides(
         only: just these effects, and no oracle that they do not need.
     """
     plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
-    captures, points, exact_points, spp = at.captures, at.points, at.exact_points, at.spp
     wanted = set(plan.effects if only is None else only)
+    captures, points, spp = at.captures, at.points, at.spp
     shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS} & wanted
     sums = {name: _Sums() for name in shading}
     material, coverage = (name if name in wanted else None for name in map(plan.effect_of, ("material", "coverage")))
     for name in (material, coverage):
         if name is not None:
             sums[name] = _Sums()
-    composed = only is None or material is not None or coverage is not None
+    composed = material is not None or coverage is not None
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
-    exact_points = exact_points if composed else points
+    exact_points = at.exact_points if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
         at_frame = truth.batch(points, batch, "frame", spp, terms=terms)

@@ -1,6 +1,6 @@
 """Error against run time: every setting of an effect measured for both, and the path tracer beside them."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from lightmeter.convergence import convergence
@@ -45,12 +45,19 @@ class Sweeping:
         wanted: effect to the settings to measure.
         choice: the current settings, around which the effects are varied.
         truth: reference and oracles.
+        curve_seconds: what the path tracer's curve may take.
         report: told of progress.
     """
 
     def __init__(
-        self, wanted: Mapping[str, Sequence[Visit]], choice: Choice, truth: Truth, report: Report = silent
+        self,
+        wanted: Mapping[str, Sequence[Visit]],
+        choice: Choice,
+        truth: Truth,
+        curve_seconds: float,
+        report: Report = silent,
     ) -> None:
+        self._curve_seconds = curve_seconds
         self._choice, self._truth, self._report = choice, truth, report
         self._device = Device()
         self._plan = compile_plan(truth.scene, effects(), choice)
@@ -77,7 +84,7 @@ class Sweeping:
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
                 item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP))
         self._report("times", total, total)
-        for point in convergence(self._truth, self._display, self._goal(), self._report):
+        for point in convergence(self._truth, self._display, self._goal(), self._curve_seconds, self._report):
             self._curve.append(point)
         self._complete = True
 
@@ -181,8 +188,9 @@ class Sweeping:
             )
         if self._curve:
             notes.append(
-                "The path tracer's times are wall time per image with compiled kernels and a built scene; its images "
-                "are independent of the reference and of each other."
+                "The path tracer's times are wall time per image with compiled kernels and a built scene; at few "
+                "samples most of it is what launching a kernel from Python takes. Its images are independent of the "
+                "reference and of each other."
             )
         return notes
 

@@ -513,7 +513,8 @@ def _difference(a: Filtered, b: Filtered) -> np.ndarray:
 
 
 def _filtered(linear: np.ndarray, pixels_per_degree: float) -> Filtered:
-    """One image's strip, linear RGB (3, _STRIP + 2r, tiles + 2r): Hunt-adjusted Lab (3, n) after contrast filtering, and (edge, point) strengths."""
+    """One image's strip, linear RGB (3, _STRIP + 2r, tiles + 2r), to Hunt-adjusted Lab (3, n) after contrast
+    filtering, and (edge, point) strengths."""
     radius, along_x, along_y = _operators(pixels_per_degree)
     _, rows, columns = linear.shape
     tiles = (columns - 2 * radius) // _TILE

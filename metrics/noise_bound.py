@@ -93,3 +93,21 @@ class Ladder:
     def _no_better(self, value: float) -> float:
         """Not past the perfect value."""
         return max(value, self.perfect) if self.larger_is_worse else min(value, self.perfect)
+
+
+def signed_bound(full: float, halves: np.ndarray, confidence: float) -> tuple[float, float]:
+    """(low, high) of a signed combination of metrics that noise biases, such as a share: it has no perfect value.
+
+    The remaining bias lies between 0 and what the slowest order leaves of D₁; the bound is the hull of the confidence
+    intervals about both ends, as in `Ladder.bound` where noise does not saturate the metric.
+
+    Args:
+        full: from all batches.
+        halves: (3, 2), from both halves of each of SPLITS.
+    """
+    t, left = student_t(len(QUARTERS), confidence), SLOWEST / (1 - SLOWEST)
+    error = math.sqrt(float(np.mean((halves[:, 0] - halves[:, 1]) ** 2)) / 4)
+    first = float(halves.mean()) - full
+    doubt = float(halves.mean(axis=1).std(ddof=1)) / math.sqrt(len(SPLITS))
+    ends = (full, t * error), (full - left * first, t * math.hypot(error, left * doubt))
+    return min(value - half for value, half in ends), max(value + half for value, half in ends)

@@ -138,13 +138,22 @@ class Geometry:
             if texture.srgb:  # there is no sRGB format for floats: decoded here, alpha as it is
                 texels = np.concatenate([srgb_decode(texels[..., :3]), texels[..., 3:]], axis=2).astype(np.float32)
             out = gl.texture((width, height), 4, texels.tobytes(), dtype="f4")
-        if "mipmap" in texture.min_filter:
+        smaller, larger = self._filters(texture)
+        if "mipmap" in smaller:
             out.build_mipmaps()
         # Clamped, unless repeated: a mirrored coordinate is folded into 0…1 by the shader, and at the fold a texel's
         # neighbour is itself, as clamping has it.
         out.repeat_x, out.repeat_y = texture.wrap_u == "repeat", texture.wrap_v == "repeat"
-        out.filter = (FILTERS[texture.min_filter], FILTERS[texture.mag_filter])
+        out.filter = (FILTERS[smaller], FILTERS[larger])
+        if self._anisotropy > 1:
+            out.anisotropy = self._anisotropy
         return out
+
+    def _filters(self, texture: Texture) -> tuple[str, str]:
+        """The filters for texels smaller and larger than a pixel: those of the sampler, unless one is set for all."""
+        if self._filter == "sampler":
+            return texture.min_filter, texture.mag_filter
+        return self._filter, self._filter.partition("_")[0]
 
 
 def rgba(image: Image) -> np.ndarray:

@@ -18,12 +18,16 @@ class Crossover:
     ms: float
     relation: str
 
-    def words(self, number: str) -> str:
-        """In words, with `number` for the milliseconds."""
+    def brief(self, number: str) -> str:
+        """For a table's cell, with `number` for the milliseconds."""
+        return {"=": f"after {number} ms", "<=": f"within {number} ms", ">": f"not within {number} ms"}[self.relation]
+
+    def sentence(self, number: str) -> str:
+        """The same of the path tracer, as a clause."""
         return {
-            "=": f"after {number} ms",
-            "<=": f"within {number} ms, its first image",
-            ">": f"not within {number} ms",
+            "=": f"the path tracer is as good after {number} ms",
+            "<=": f"the path tracer's first image, after {number} ms, is as good",
+            ">": f"the path tracer is not as good within {number} ms",
         }[self.relation]
 
 

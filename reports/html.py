@@ -81,10 +81,14 @@ def render_report(
         "maps": _map_model(pairs),
     }
     environment = jinja2.Environment(
-        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=jinja2.FunctionLoader(_asset),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     script = "(() => {\n'use strict';\n" + "\n".join(_asset(name) for name in _SCRIPTS) + "})();\n"
-    return environment.from_string(_asset("report.html")).render(
+    return environment.get_template("report.html").render(
         page_content(results, set(names)),
         pairs=[_card(pair, display_curve, thumbnails or {}) for pair in pairs],
         style=_asset("report.css"),

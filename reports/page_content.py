@@ -5,10 +5,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.attribution_content import attribution_content
+from lightmeter.reports.cells import measured, named, share_of_width, terms_with_meaning, timed
 from lightmeter.reports.closure import closure_statement
-from lightmeter.reports.metric_words import definition, in_order, label, present
-from lightmeter.reports.results import Effect, Results, Timing
-from lightmeter.reports.significant import show_interval, show_number, show_value
+from lightmeter.reports.metric_words import beside_the_mean, in_order, label, present
+from lightmeter.reports.object_content import object_content
+from lightmeter.reports.percentages import percent_of
+from lightmeter.reports.results import Effect, Metrics, Results, Timing
+from lightmeter.reports.significant import show_number
 
 _HEADLINE = ("nrmse", "rmse", "flip", "flip_hdr", "ssim")
 _EFFECT_COLUMNS = ("flip", "flip_hdr", "ssim")
@@ -23,11 +27,13 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "failures": _failures(results),
         "tiles": _tiles(results),
         "closure": _closure(results),
+        "attribution": attribution_content(results, shown),
+        "objects": object_content(results.objects),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),
         "left_out": [{"what": item.what, "why": item.why} for item in results.left_out],
-        "not_approximated": [{"term": term, "meaning": _term_meaning(term)} for term in results.not_approximated],
+        "not_approximated": terms_with_meaning(results.not_approximated),
         "notes": list(results.notes),
         "reference": _reference(results),
         "device": _flat(results.device),
@@ -55,50 +61,17 @@ def _failures(results: Results) -> list[str]:
     return sentences
 
 
-def _measured(measurement: Measurement) -> dict[str, Any]:
-    """Value, interval, unit and the remarks that stand in its tooltip."""
-    remarks = [measurement.how]
-    if measurement.floor is not None:
-        remarks.append(f"noise floor {show_number(measurement.floor)}")
-    if measurement.corrected is not None:
-        remarks.append(f"corrected for noise {show_number(measurement.corrected)}")
-    return {
-        "value": show_value(measurement),
-        "interval": show_interval(measurement),
-        "unit": measurement.unit,
-        "failed": math.isnan(measurement.value),  # an infinite PSNR is a perfect one
-        "remarks": "; ".join(remark for remark in remarks if remark),
-    }
-
-
-def _named(name: str) -> dict[str, str]:
-    return {"name": name, "label": label(name), "definition": definition(name)}
-
-
-def _time(timing: Timing | None) -> dict[str, Any] | None:
-    if timing is None:
-        return None
-    as_metric = Measurement(timing.median, timing.median - timing.mad, timing.median + timing.mad)
-    spread = show_interval(as_metric) if math.isfinite(timing.mad) else ""
-    return {
-        "value": show_value(as_metric),
-        "spread": spread,
-        "failed": not math.isfinite(timing.median),
-        "remarks": f"median over {timing.frames} frames, ± median absolute deviation",
-    }
-
-
 def _tiles(results: Results) -> list[dict[str, Any]]:
     metrics = results.frame.metrics
     names = present(_HEADLINE, metrics) or in_order(metrics)
     tiles = []
     for name in names[:_HEADLINE_TILES]:
-        tile = _named(name) | _measured(metrics[name])
+        tile = named(name) | _with_tail(name, metrics)
         floor = metrics[name].floor
         if not tile["interval"] and floor is not None:
             tile["interval"] = f"noise floor {show_number(floor)}"
         tiles.append(tile)
-    time = _time(results.frame.time_ms)
+    time = timed(results.frame.time_ms)
     if time:
         tiles.append(
             {
@@ -109,6 +82,7 @@ def _tiles(results: Results) -> list[dict[str, Any]]:
                 "unit": "ms",
                 "failed": time["failed"],
                 "remarks": time["remarks"],
+                "tail": "",
             }
         )
     return tiles
@@ -123,7 +97,7 @@ def _closure(results: Results) -> dict[str, Any] | None:
         "verdict": statement.verdict,
         "sentence": statement.sentence,
         "how": results.closure.bias.how,
-        "metrics": [_named(name) | _measured(metrics[name]) for name in in_order(metrics)],
+        "metrics": [named(name) | measured(metrics[name]) for name in in_order(metrics)],
     }
 
 
@@ -134,35 +108,52 @@ def _effects(results: Results, shown: set[str]) -> dict[str, Any] | None:
     names = [name for effect in results.effects for name in effect.metrics]
     columns = present(_EFFECT_COLUMNS, names)
     ends = _bar_ends(results)
-    shares = next((name for effect in results.effects for name in effect.share), None)
-    rows = [_effect_row(effect, columns, ends, shares, shown) for effect in results.effects]
+    shared = next((name for effect in results.effects for name in effect.share), "")
+    shares = _shares(results, shared)
+    rows = [_effect_row(effect, columns, ends, shares.get(effect.effect), shown) for effect in results.effects]
     frame = Effect("frame", (), {}, results.frame.metrics, results.frame.time_ms)
-    rows.append(_effect_row(frame, columns, ends, shares, shown) | {"is_frame": True})
+    rows.append(_effect_row(frame, columns, ends, None, shown) | {"is_frame": True})
     return {
-        "columns": [_named(name) for name in columns],
-        "rmse": _named("rmse"),
-        "share": label(shares) if shares else "",
+        "columns": [named(name) for name in columns],
+        "rmse": named("rmse"),
+        "share": label(shared),
         "rows": rows,
     }
 
 
 def _effect_row(
-    effect: Effect, columns: Sequence[str], ends: Mapping[str, float], shares: str | None, shown: set[str]
+    effect: Effect,
+    columns: Sequence[str],
+    ends: Mapping[str, float],
+    share: Measurement | None,
+    shown: set[str],
 ) -> dict[str, Any]:
     rmse = effect.metrics.get("rmse")
-    share = effect.share.get(shares) if shares else None
     return {
         "name": effect.effect,
         "is_frame": False,
         "has_pair": effect.effect in shown,
-        "terms": [{"term": term, "meaning": _term_meaning(term)} for term in effect.terms],
-        "rmse": _measured(rmse) if rmse else None,
+        "terms": terms_with_meaning(effect.terms),
+        "rmse": _with_tail("rmse", effect.metrics) if rmse else None,
         "bar": _bar(rmse, ends) if rmse else None,
-        "cells": [_measured(effect.metrics[name]) if name in effect.metrics else None for name in columns],
-        "time": _time(effect.time_ms),
-        "share": _measured(share) if share else None,
+        "cells": [_with_tail(name, effect.metrics) if name in effect.metrics else None for name in columns],
+        "time": timed(effect.time_ms),
+        "share": measured(share) if share else None,
         "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()],
     }
+
+
+def _shares(results: Results, metric: str) -> dict[str, Measurement]:
+    """Effect to its share of the frame's error, in percent where that error can be told from 0."""
+    totals = results.attribution.total if results.attribution else results.frame.metrics
+    total = totals.get(metric)
+    found = {effect.effect: effect.share[metric] for effect in results.effects if metric in effect.share}
+    return {name: (percent_of(share, total) if total else None) or share for name, share in found.items()}
+
+
+def _with_tail(name: str, metrics: Metrics) -> dict[str, Any]:
+    """The metric's cell, with the percentiles and the worst tile that go with it."""
+    return measured(metrics[name]) | {"tail": beside_the_mean(name, metrics)}
 
 
 def _knob(value: Any) -> str:
@@ -189,14 +180,10 @@ def _bar(measurement: Measurement, ends: Mapping[str, float]) -> dict[str, float
     end = ends.get(measurement.unit)
     if end is None or not math.isfinite(measurement.value):
         return None
-    bar = {"value": _percent(measurement.value, end)}
+    bar = {"value": share_of_width(measurement.value, end)}
     if measurement.low is not None and measurement.high is not None:
-        bar |= {"low": _percent(measurement.low, end), "high": _percent(measurement.high, end)}
+        bar |= {"low": share_of_width(measurement.low, end), "high": share_of_width(measurement.high, end)}
     return bar
-
-
-def _percent(value: float, end: float) -> float:
-    return round(100 * min(1.0, max(0.0, value / end)), 2) if end > 0 and math.isfinite(value) else 0.0
 
 
 def _matrix(results: Results) -> dict[str, Any] | None:
@@ -206,11 +193,11 @@ def _matrix(results: Results) -> dict[str, Any] | None:
     if not names or (len(rows) == 1 and len(names) <= 1):
         return None
     return {
-        "columns": [_named(name) for name in names],
+        "columns": [named(name) for name in names],
         "rows": [
             {
                 "name": name,
-                "cells": [_measured(metrics[column]) if column in metrics else None for column in names],
+                "cells": [measured(metrics[column]) if column in metrics else None for column in names],
             }
             for name, metrics in rows
         ],
@@ -233,17 +220,17 @@ def _timing_chart(results: Results) -> dict[str, Any] | None:
             {
                 "name": item.name,
                 "effect": item.effect,
-                "value": _percent(item.median, end),
-                "low": _percent(item.median - item.mad, end),
-                "high": _percent(item.median + item.mad, end),
-                "time": _time(Timing(item.median, item.mad, frames)),
+                "value": share_of_width(item.median, end),
+                "low": share_of_width(item.median - item.mad, end),
+                "high": share_of_width(item.median + item.mad, end),
+                "time": timed(Timing(item.median, item.mad, frames)),
             }
         )
     return {
         "bars": bars,
         "total": show_number(total),
-        "frame": _time(frame),
-        "rest": {"value": _percent(rest, end), "text": show_number(rest)} if rest > 0.01 * total else None,
+        "frame": timed(frame),
+        "rest": {"value": share_of_width(rest, end), "text": show_number(rest)} if rest > 0.01 * total else None,
     }
 
 
@@ -271,9 +258,3 @@ def _flat(mapping: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]
         else:
             rows.append((name, "—" if value is None else str(value)))
     return rows
-
-
-def _term_meaning(term: str) -> str:
-    from lightmeter.scenes.terms import TERMS
-
-    return TERMS[term].meaning if term in TERMS else ""

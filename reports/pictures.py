@@ -6,6 +6,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from lightmeter.reports.metric_words import error_phrase
+
 Space = Literal["scene-linear", "display"]
 Scale = Literal["unit", "magnitude", "signed"]
 
@@ -116,6 +118,25 @@ def signed_error(tested: npt.ArrayLike, truth: npt.ArrayLike, unit: str = "") ->
 def flip_error(values: npt.ArrayLike) -> ErrorMap:
     """A FLIP map (H, W), computed elsewhere, as an error map with its range of 0 to 1."""
     return ErrorMap("flip", "FLIP", np.asarray(values, np.float32), "", "unit")
+
+
+def share_map(metric: str, values: npt.ArrayLike, unit: str = "") -> ErrorMap:
+    """Where in the image an effect's share of the frame's error lies, (H, W): its mean is the share.
+
+    Signed: a negative pixel makes up for another effect's error. `unit` is that of the metric.
+    """
+    return ErrorMap(
+        share_map_name(metric),
+        f"Share of the frame's {error_phrase(metric)}",
+        np.asarray(values, np.float32),
+        unit,
+        "signed",
+    )
+
+
+def share_map_name(metric: str) -> str:
+    """The name of the map in an effect's pair: "share_mse", "share_flip"."""
+    return f"share_{metric}"
 
 
 def _robust_maximum(magnitudes: npt.NDArray[np.float32]) -> float:

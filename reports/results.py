@@ -212,7 +212,10 @@ class Results:
 
 
 def to_json(results: Any) -> str:
-    """The document (a `Results`, or another dataclass of numbers) as strict JSON text, UTF-8, keys in the order of the classes, with a final line break."""
+    """A `Results`, or another dataclass of numbers, as strict JSON text.
+
+    UTF-8, keys in the order of the classes, with a final line break.
+    """
     return json.dumps(_plain(results), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

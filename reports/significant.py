@@ -4,6 +4,8 @@ import math
 
 from lightmeter.metrics.measurement import Measurement
 
+_NEARLY = 1.2
+"""An interval whose wider side is below this many times its half-width is printed with ±."""
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -29,18 +31,24 @@ def show_value(measurement: Measurement, digits: int = 3) -> str:
 
 
 def show_interval(measurement: Measurement) -> str:
-    """The interval alone: "± 0.00021" where it is symmetric, else "0.0119 … 0.0131"; "" where there is none."""
-    low, high = measurement.low, measurement.high
-    if low is None or high is None or not math.isfinite(measurement.value):
+    """The interval alone: "± 0.00021" where nearly symmetric about the value, else "0.0119 … 0.0131"; "" for none.
+
+    A ± states the wider side, so that it never claims more than the interval does.
+    A bound on a metric that noise biases may leave the value outside: it is about the value without that bias.
+    """
+    low, high, value = measurement.low, measurement.high, measurement.value
+    if low is None or high is None or not math.isfinite(value):
         return ""
     half = half_width(measurement)
     if half is None or not math.isfinite(half):
         return f"{show_number(low)} … {show_number(high)}"
+    wider = max(high - value, value - low)
+    symmetric = wider <= max(_NEARLY * half, half + 1e-5 * abs(value))
     if half == 0:
-        return "± 0"
-    places = _places(measurement.value, half)
-    if abs((high - measurement.value) - (measurement.value - low)) <= 0.1 * half:
-        return f"± {_decimals(half, places)}"
+        return "± 0" if symmetric else f"{show_number(low, 6)} … {show_number(high, 6)}"
+    places = _places(value, half)
+    if symmetric:
+        return f"± {_decimals(wider, places)}"
     return f"{_decimals(low, places)} … {_decimals(high, places)}"
 
 

@@ -9,7 +9,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Setting, SweptEffect, curve_of, show_knob
-from lightmeter.reports.sweep_table import crossing, show_time
+from lightmeter.reports.sweep_table import crossing_clause, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
 # symbol of its own beside its colour.
@@ -27,7 +27,8 @@ def figure(swept: SweptEffect, curve: Sequence[CurvePoint], view: str, metric: s
     points = list(curve) if comparable else []
     values = [s.standing(view).metrics[metric].value for s in listed] + [p.metrics[metric].value for p in points]
     floor = 0.5 * min((v for v in values if v > 0), default=1.0)
-    traces = _settings(listed, view, metric, floor)
+    lines = {name: [s for s in members if s in listed] for name, members in groups(swept.settings).items()}
+    traces = _settings(lines, view, metric, floor)
     traces += [_front(listed, view, metric, floor), _current(listed, view, metric, floor)]
     if points:
         traces += [_curve(points, metric, floor), *_crossovers(listed, view, metric, floor)]
@@ -42,11 +43,12 @@ def figure(swept: SweptEffect, curve: Sequence[CurvePoint], view: str, metric: s
 
 
 def groups(settings: Sequence[Setting]) -> dict[str, list[Setting]]:
-    """Settings that belong on one line: of a knob each; of a grid, those that share the value of its shortest knob."""
+    """Settings that belong on one line: those of a knob; of a grid, those that share the value of the knob with the
+    fewest, a choice rather than a number."""
     varied = [s.varied for s in settings if s.varied]
     names = list(dict.fromkeys(varied))
     if len(names) == 1 and len(names[0]) > 1:
-        shortest = min(names[0], key=lambda knob: len({s.knobs[knob] for s in settings}))
+        shortest = min(names[0], key=lambda knob: _values(settings, knob))
         keys = [f"{shortest} {show_knob(s.knobs[shortest])}" for s in settings]
         return {key: [s for s, k in zip(settings, keys, strict=True) if k == key] for key in dict.fromkeys(keys)}
     found = {}
@@ -58,9 +60,15 @@ def groups(settings: Sequence[Setting]) -> dict[str, list[Setting]]:
     return found or {"setting": list(settings)}
 
 
-def _settings(listed: Sequence[Setting], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
+def _values(settings: Sequence[Setting], knob: str) -> tuple[int, bool]:
+    """How many values a knob takes, and whether they are numbers."""
+    found = {s.knobs[knob] for s in settings}
+    return len(found), all(isinstance(value, (int, float)) for value in found)
+
+
+def _settings(lines: Mapping[str, Sequence[Setting]], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
     traces = []
-    for index, (name, members) in enumerate(groups(listed).items()):
+    for index, (name, members) in enumerate(lines.items()):
         colour = GROUP_COLOURS[index % len(GROUP_COLOURS)]
         symbol = GROUP_SYMBOLS[index % len(GROUP_SYMBOLS)]
         measured = [s.standing(view).metrics[metric] for s in members]
@@ -97,13 +105,15 @@ def _hover(setting: Setting, view: str, metric: str) -> str:
     ]
     if measured.value <= 0:
         lines.append("drawn at the lower edge: no error beyond the reference's noise")
-    crossed = crossing(standing, metric)
-    return "<br>".join(lines + ([f"the path tracer is as good {crossed}"] if crossed else []))
+    clause = crossing_clause(standing, metric)
+    return "<br>".join(lines + ([clause] if clause else []))
 
 
 def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
     """A stair: what is reached at a time stays reached until the next setting of the front is affordable."""
-    on = sorted((s for s in listed if s.standing(view).front.get(metric)), key=lambda s: s.standing(view).time_ms.median)
+    on = sorted(
+        (s for s in listed if s.standing(view).front.get(metric)), key=lambda s: s.standing(view).time_ms.median
+    )
     return {
         "name": "Pareto front",
         "mode": "lines",

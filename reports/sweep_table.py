@@ -45,15 +45,21 @@ def conclusions(swept: SweptEffect, view: str) -> list[str]:
             f"Least {label(metric)}: {show_measurement(standing.metrics[metric])} with {setting.label} in "
             f"{show_number(standing.time_ms.median)} ms"
         )
-        crossed = crossing(standing, metric)
-        sentences.append(text + (f"; the path tracer is as good {crossed}." if crossed else "."))
+        clause = crossing_clause(standing, metric)
+        sentences.append(f"{text}; {clause}." if clause else f"{text}.")
     return sentences
 
 
 def crossing(standing: Standing, metric: str) -> str:
-    """When the path tracer is as good, in words; "" where that cannot be said."""
+    """When the path tracer is as good, for a table; "" where that cannot be said."""
     found = standing.path_tracer.get(metric)
-    return found.words(show_number(found.ms)) if found else ""
+    return found.brief(show_number(found.ms)) if found else ""
+
+
+def crossing_clause(standing: Standing, metric: str) -> str:
+    """The same as a clause."""
+    found = standing.path_tracer.get(metric)
+    return found.sentence(show_number(found.ms)) if found else ""
 
 
 def show_time(timing: Timing) -> str:

@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.closure import closure_statement
-from lightmeter.reports.metric_words import in_order, label, present
-from lightmeter.reports.results import Results, Timing
+from lightmeter.reports.fix_first import fix_first
+from lightmeter.reports.metric_words import TAILS, beside_the_mean, error_phrase, in_order, label, present
+from lightmeter.reports.object_content import by_share
+from lightmeter.reports.percentages import in_percent, percent_of
+from lightmeter.reports.results import Attribution, ObjectError, Results, Timing
 from lightmeter.reports.significant import show_interval, show_measurement, show_value
 
 if TYPE_CHECKING:
@@ -21,29 +24,42 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 _COLUMNS = ("flip", "ssim")
+_BESIDE_SHARES = ("flip",)
+"""What a log's 120 columns have room for beside the shares."""
+_SHARED = "mse"
+_LEAST_PERCENT = 0.005
+_MOST_FIXES = 3
 _STYLES = {"meets": "green", "wide": "yellow", "unknown": "yellow", "differs": "bold red"}
 
 
 def comparison(results: Results) -> Group:
-    """Table of effects and frame, closure, what is not finite, what was left out, notes: what there is of them."""
+    """Table of effects and frame, what to fix first, closure, what was left out, notes: what there is of them."""
     from rich.console import Group
     from rich.text import Text
 
-    parts: list = [comparison_table(results)]
+    parts: list = [comparison_table(results), *_tails(results)]
     if results.nonfinite.total():
         parts.append(Text(_nonfinite(results), style="bold red"))
+    if results.attribution:
+        totals = results.attribution.total.items()
+        parts += [_fix_first(results, results.attribution, name) for name, total in totals if _finite(total)]
+    if worst := by_share([one for one in results.objects if _finite(one.share)]):
+        parts.append(_object(worst[0]))
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
     parts += [_reason("left out", item.what, item.why) for item in results.left_out]
     if results.not_approximated:
-        parts.append(_reason("not approximated", ", ".join(results.not_approximated), ""))
-    parts += [_reason("note", note, "") for note in results.notes]
+        parts.append(_reason("not approximated", ", ".join(results.not_approximated)))
+    parts += [_reason("note", note) for note in results.notes]
     return Group(*parts)
 
 
 def comparison_table(results: Results) -> Table:
-    """A row per effect and one for the frame: term, RMSE with interval, FLIP, SSIM, milliseconds."""
+    """A row per effect and one for the frame: term, RMSE with interval, FLIP, SSIM, milliseconds.
+
+    Where the error was attributed, also the share of the frame's MSE, with rows for what no effect stands for.
+    """
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -51,25 +67,79 @@ def comparison_table(results: Results) -> Table:
     title = Text(f"{results.scene}, {results.size[0]}×{results.size[1]}")
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     names = [name for metrics in _all_metrics(results) for name in metrics]
-    columns = present(_COLUMNS, names)
+    shares = _shares(results)
+    columns = present(_COLUMNS if not shares else _BESIDE_SHARES, names)
     table.add_column("effect", no_wrap=True)
     table.add_column("term", no_wrap=True)
     table.add_column("RMSE", justify="right", no_wrap=True)
     for name in columns:
         table.add_column(label(name), justify="right", no_wrap=True)
+    if shares:
+        table.add_column(f"% of {label(_SHARED)}", justify="right", no_wrap=True)
     table.add_column("ms", justify="right", no_wrap=True)
     for effect in results.effects:
         cells = [_number(effect.metrics.get(name)) for name in columns]
+        cells += [_percent(shares.get(effect.effect))] if shares else []
         terms = Text("\n".join(effect.terms))
         table.add_row(Text(effect.effect), terms, _bare(effect.metrics.get("rmse")), *cells, _time(effect.time_ms))
+    effects = {effect.effect for effect in results.effects}
+    for name in (name for name in shares if name not in effects):
+        blank = [Text() for _ in columns]
+        table.add_row(Text(), Text(name, style="dim"), Text(), *blank, _percent(shares[name]), Text())
     if results.effects:
         table.add_section()
     frame = results.frame.metrics
     cells = [_number(frame.get(name)) for name in columns]
+    cells += [Text("100")] if shares else []
     table.add_row(Text("frame", style="bold"), Text(), _bare(frame.get("rmse")), *cells, _time(results.frame.time_ms))
     unit = next((m["rmse"].unit for m in _all_metrics(results) if "rmse" in m and m["rmse"].unit), "")
     table.caption = Text(f"RMSE in {unit}, of code values 0…1 for tone and encode" if unit else "", justify="left")
     return table
+
+
+def _percent(share: Measurement | None) -> Text:
+    """A share in percent; what two decimals do not show is 0."""
+    ends = [] if share is None else [abs(x) for x in (share.value, share.low, share.high) if x is not None]
+    return _bare(Measurement(0.0) if ends and max(ends) < _LEAST_PERCENT else share)
+
+
+def _shares(results: Results) -> dict[str, Measurement]:
+    """Player to its share of the frame's MSE in percent, then what is unexplained; empty where there is none."""
+    attribution = results.attribution
+    if attribution is None or _SHARED not in attribution.total:
+        return {}
+    parts = {player.name: player.share[_SHARED] for player in attribution.players if _SHARED in player.share}
+    if _SHARED in attribution.residual:
+        parts["unexplained"] = attribution.residual[_SHARED]
+    found = {name: percent_of(part, attribution.total[_SHARED]) for name, part in parts.items()}
+    return {name: share for name, share in found.items() if share}
+
+
+def _tails(results: Results) -> list[Text]:
+    """The frame's percentiles and worst tiles, which a mean would drown."""
+    found = {label(name): beside_the_mean(name, results.frame.metrics) for name in TAILS}
+    line = "; ".join(f"{name} {tail}" for name, tail in found.items() if tail)
+    return [_reason("frame, beside the mean", line)] if line else []
+
+
+def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
+    """The players whose exactness removes most, at most three of them."""
+    fixes = [item for item in fix_first(results, attribution, metric) if item.verdict == "fix"]
+    named = [f"{item.player.name} {show_measurement(item.removed)}" for item in fixes[:_MOST_FIXES]]
+    what = ", ".join(named) or "nothing stands out of the noise"
+    return _reason(f"fix first ({error_phrase(metric)} removed)", what)
+
+
+def _object(worst: ObjectError) -> Text:
+    share = show_measurement(in_percent(worst.share))
+    material = f" ({_printable(worst.material)})" if worst.material else ""
+    what = f"{_printable(worst.name)}{material} holds {share} of the squared error, on {worst.pixels:,} pixels"
+    return _reason("largest error", what)
+
+
+def _printable(name: str) -> str:
+    """`name` without what would steer the terminal: an object is called as its scene file pleases."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 def metric_table(metrics: dict[str, Measurement]) -> Table:
@@ -89,6 +159,10 @@ def metric_table(metrics: dict[str, Measurement]) -> Table:
 
 def _all_metrics(results: Results) -> list:
     return [results.frame.metrics, *(effect.metrics for effect in results.effects)]
+
+
+def _finite(measurement: Measurement) -> bool:
+    return math.isfinite(measurement.value)
 
 
 def _nonfinite(results: Results) -> str:
@@ -135,7 +209,7 @@ def _time(timing: Timing | None) -> Text:
     return Text(" ".join(part for part in (show_value(measured), show_interval(measured)) if part))
 
 
-def _reason(kind: str, what: str, why: str) -> Text:
+def _reason(kind: str, what: str, why: str = "") -> Text:
     from rich.text import Text
 
     return Text.assemble((f"{kind}: ", "dim"), what, (f": {why}" if why else "", "dim"))

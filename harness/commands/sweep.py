@@ -13,7 +13,7 @@ from lightmeter.progress import progress_bar
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Scene, effect, knobs, choice, budget, output."""
     options.add_scene(parser)
-    parser.add_argument("effect", metavar="EFFECT", nargs="?", help="whose settings are varied; see `lightmeter effects`")
+    parser.add_argument("effect", metavar="EFFECT", nargs="?", help="whose knobs are varied")
     parser.add_argument("--all", action="store_true", help="sweep every effect of the scene that has knobs to sweep")
     parser.add_argument(
         "--knob",
@@ -23,9 +23,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="vary this knob, over these values or its declared ones; several give their grid (default: every knob "
         "that declares values, one at a time)",
     )
+    parser.add_argument(
+        "--curve",
+        type=options.number,
+        metavar="S",
+        default=60.0,
+        help="seconds for the path tracer's own convergence curve (default 60)",
+    )
     options.add_budget(parser)
     options.add_choice(parser)
-    parser.add_argument("-o", "--output", metavar="DIR", help="where the page goes (default lightmeter-out/SCENE-sweep)")
+    parser.add_argument("-o", "--output", metavar="DIR", help="where it goes (default lightmeter-out/SCENE-sweep)")
     options.add_store(parser)
     options.add_json(parser)
 
@@ -35,6 +42,8 @@ def run(args: argparse.Namespace) -> int:
     size, budget, words = options.size(args.size), options.budget(args), options.words(args)
     if bool(args.effect) == args.all:
         raise UsageError("sweep: name one EFFECT, or give --all")
+    if not 0 <= args.curve <= 1e6:
+        raise UsageError(f"--curve: expected 0 to 1e6 seconds, got {args.curve:g}")
     if args.all and args.knob:
         raise UsageError("--knob: names a knob of one effect, and cannot be given with --all")
     from lightmeter.realtime.graph import Choice
@@ -54,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         # Settings share oracles: without the store they are kept for this run.
         store = Store(Path(scratch)) if args.no_store else Store(say=options.say)
         truth = Truth(scene, size, budget, args.seed, store=store, report=report, say=options.say)
-        sweeping = Sweeping(wanted, choice, truth, report)
+        sweeping = Sweeping(wanted, choice, truth, args.curve, report)
         try:
             sweeping.run()
         except KeyboardInterrupt:

@@ -94,16 +94,16 @@ function bindKeys(viewer) {
 }
 
 function bindRows(viewer) {
-  const open = (name, jump) => {
+  const open = (name, jump, map) => {
     const index = viewer.pairs.findIndex((pair) => pair.name === name);
     if (index < 0) return;
-    viewer.show(index);
+    viewer.show(index, map);
     try { history.replaceState(null, '', `#${encodeURIComponent(name)}`); } catch { /* some browsers refuse on file: */ }
     if (jump) byId('viewer').scrollIntoView({ block: 'start', behavior: 'auto' });
   };
   for (const card of document.querySelectorAll('.card')) card.addEventListener('click', () => open(card.dataset.pair, false));
   for (const row of document.querySelectorAll('tr[data-pair]')) {
-    row.addEventListener('click', (event) => { if (!event.target.closest('.term')) open(row.dataset.pair, true); });
+    row.addEventListener('click', (event) => { if (!event.target.closest('.term')) open(row.dataset.pair, true, row.dataset.map); });
   }
 }
 

@@ -33,10 +33,11 @@ class Viewer {
     this.draw();
   }
 
-  async show(index) {
+  // Open a pair with the error map that is asked for by name, or with the one that is shown now; else its first.
+  async show(index, map) {
     const sameSize = this.pairs[index].width === this.pair.width && this.pairs[index].height === this.pair.height;
-    const name = this.error && this.error.name;
-    const error = Math.max(0, this.pairs[index].errors.findIndex((one) => one.name === name));
+    const found = [map, this.error.name].map((name) => this.pairs[index].errors.findIndex((one) => one.name === name));
+    const error = found.find((place) => place >= 0) ?? 0;
     const change = { pair: index, error, cursor: sameSize ? this.state.cursor : null };
     this.set(sameSize ? change : { ...change, zoom: 1, x: 0.5, y: 0.5 });
     const message = this.root.querySelector('#message');

@@ -46,6 +46,22 @@ WRONG = [
     (("reference", "plane", "--spp", "3"), "--spp"),
     (("reference", "plane", "--only", "srgb"), "'--only'"),
     (("effects", "shadow_mp"), "'shadow_map'"),
+    (("sweep", "plnae", "shadow_map"), "'plane'"),
+    (("sweep", "posts"), "--all"),
+    (("sweep", "posts", "shadow_map", "--all"), "--all"),
+    (("sweep", "posts", "--all", "--knob", "resolution"), "--knob"),
+    (("sweep", "posts", "shadow_mp"), "'shadow_map'"),
+    (("sweep", "posts", "shadow_map", "--knob", "resoltion"), "'resolution'"),
+    (("sweep", "posts", "shadow_map", "--knob", "resolution=8"), "[16, 8192]"),
+    (("sweep", "posts", "shadow_map", "--knob", "resolution=64,"), "whole number"),
+    (("sweep", "posts", "shadow_map", "--knob", "filter=smooth"), "hard, pcf3"),
+    (("sweep", "posts", "shadow_map", "--knob", "bias=0", "--knob", "bias=1"), "bias=v1,v2"),
+    (("sweep", "posts", "shadow_map", "--curve", "-1"), "--curve"),
+    (("sweep", "posts", "cook_torrance"), "no knobs at all"),
+    (("sweep", "plane", "shadow_map"), "one flat shape"),
+    (("sweep", "plane", "gamma_22"), "--use gamma_22"),
+    (("sweep", "plane", "srgb", "--only", "cook_torrance"), "not among the effects asked for"),
+    (("sweep", "plane", "--all", "--only", "cook_torrance"), "knob to sweep"),
     (("scenes", "plane"), "'plane'"),
     (("store", "purge"), "prune"),
     (("store", "prune"), "--older-than"),
@@ -103,7 +119,7 @@ def test_without_a_command_the_help_is_on_stderr(run):
 
 
 @pytest.mark.parametrize(
-    "command", ["compare", "reference", "gate", "diff", "scenes", "effects", "store", "schema", "doctor"]
+    "command", ["compare", "reference", "sweep", "gate", "diff", "scenes", "effects", "store", "schema", "doctor"]
 )
 def test_every_command_explains_itself(run, command):
     found = run(command, "--help")

@@ -70,6 +70,26 @@ def test_spread_is_that_of_half_samples():
     )
 
 
+def test_a_doubtful_step_widens_the_far_end():
+    # Splits whose halves are at 0.4, 0.5, 0.6: D₁ = 0.1 with a standard error of 0.1/√3, no spread of the value itself.
+    # D₂ is 0, but nothing about the ratio is significant.
+    low, high = Ladder(0.4, np.array([[0.4] * 2, [0.5] * 2, [0.6] * 2]), np.full(4, 0.5), 0.0, perfect=-99).bound(0.95)
+    left = 2**-0.35 / (1 - 2**-0.35)
+    half = student_t(4, 0.95) * left * 0.1 / math.sqrt(3)
+    assert (low, high) == pytest.approx((0.4 - left * 0.1 - half, 0.4 - left * 0.1 + half))
+
+
+def test_quarters_of_unequal_size_weigh_as_they_should():
+    batches = RNG(6).random((10, 4, 4, 3))
+    comparison = Comparison(batches, batches)
+    half = batches[[0, 4, 8, 2, 6]].mean(axis=0)  # k mod 4 is 0 or 2; the first quarter holds three
+    half_and_one = batches[[0, 4, 8, 1, 5, 9, 2, 6]].mean(axis=0)
+    for part in (comparison.reference_part, comparison.tested_part):
+        assert part((0, 2)) == pytest.approx(half, rel=1e-12)
+        assert part((0, 1, 2)) == pytest.approx(half_and_one, rel=1e-12)
+        assert part((0, 1, 2, 3)) == pytest.approx(batches.mean(axis=0), rel=1e-12)
+
+
 def test_ladder_is_of_means_of_the_batches():
     # Written out: quarter q holds the batches q, q + 4, …; its map is at their mean.
     batches, tested = RNG(4).random((8, 20, 20, 3)), RNG(5).random((20, 20, 3))

@@ -113,8 +113,8 @@ def heavy_pass(device):
 def test_the_software_rasteriser_s_rule_is_needed_and_applied(device):
     """A timer query ends when a pass is recorded, and the work follows at glFinish; the clock sees the work.
 
-    All three are of the same pass in the same run: wall time around draw and glFinish as measured here, the query inside
-    it, and what the clock says. The clock's median must be most of the wall time's, the query's a small part of it.
+    All three are of the same pass in the same run: wall time around draw and glFinish as measured here, the query
+    inside it, and what the clock says. The clock's median must be most of the wall time's, the query's a small part.
     """
     if not device.software:
         pytest.skip("the rasteriser is hardware")

@@ -232,6 +232,35 @@ def test_mipmaps_average_what_is_smaller_than_a_pixel(device):
     assert np.abs(seen["linear_mipmap_linear"].base_color - 0.5).max() < 1e-3
 
 
+@pytest.mark.parametrize("own", ["nearest", "linear_mipmap_linear"])
+def test_one_filter_can_be_set_for_every_texture(device, own):
+    """Whatever the sampler says: `nearest` sees single texels, mipmaps see their mean."""
+    checks = np.indices((64, 64)).sum(axis=0) % 2
+    texture = Texture(image(checks.astype(np.float32), np.float32), min_filter=own)
+    scene = scene_of(facing(Material("checks", base_color_texture=texture)))
+    seen = {}
+    for name in ("nearest", "linear_mipmap_linear"):
+        choice = Choice(settings={"texture_filtering": {"filter": name}})
+        seen[name] = renderer(device, scene, (8, 8), choice).capture(terms=False).points.base_color
+    assert set(np.unique(seen["nearest"])) <= {0.0, 1.0}
+    assert np.abs(seen["linear_mipmap_linear"] - 0.5).max() < 1e-3
+
+
+def test_anisotropy_keeps_what_a_tilted_surface_shows(device):
+    """Stripes along the direction in which the card recedes: mipmaps blur them away, a narrow footprint does not."""
+    stripes = np.broadcast_to(np.arange(64) // 4 % 2, (64, 64)).astype(np.float32)
+    material = Material("stripes", base_color_texture=Texture(image(stripes, np.float32)))
+    tilt = np.eye(4)
+    tilt[1:3, 1:3] = [[0.1, -0.995], [0.995, 0.1]]  # 84° about the x axis: sixteen texels a pixel along y, one along x
+    scene = scene_of(facing(material, matrix=tilt))
+    spread = {}
+    for ratio in (1.0, 16.0):
+        choice = Choice(settings={"texture_filtering": {"anisotropy": ratio}})
+        points = renderer(device, scene, (64, 64), choice).capture(terms=False).points
+        spread[ratio] = points.base_color[points.hit].std()
+    assert spread[16.0] > 2 * spread[1.0]
+
+
 def test_mipmaps_of_srgb_images_average_light(device):
     checks = (np.indices((64, 64)).sum(axis=0) % 2 * 255).astype(np.uint8)
     texture = Texture(image(checks), srgb=True)

@@ -6,14 +6,17 @@ import numpy as np
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.display_curve import DisplayCurve
-from lightmeter.reports.pictures import Pair, flip_error, rms_error, signed_error
+from lightmeter.reports.pictures import Pair, flip_error, rms_error, share_map, signed_error
 from lightmeter.reports.results import (
+    Attribution,
     Closure,
     Effect,
     Frame,
     LeftOut,
     NonFinite,
+    ObjectError,
     PassTime,
+    Player,
     Reference,
     Results,
     Timing,
@@ -94,7 +97,12 @@ def make_pairs(size: int = 96, broken: bool = False) -> list[Pair]:
     ]
     for name, term, tested, true, unit, mask in buffers:
         tested, true = tested.astype(np.float32), noisy(true, 0.004)
-        errors = (rms_error(tested, true, unit), signed_error(tested, true, unit))
+        difference = tested - true
+        shares = (
+            share_map("mse", np.mean(difference * np.abs(difference), axis=2), f"({RADIANCE})²"),
+            share_map("flip", np.mean(difference, axis=2)),
+        )
+        errors = (rms_error(tested, true, unit), signed_error(tested, true, unit), *shares)
         caption = f"The effect's own buffer beside the oracle of {term} at the same points."
         pairs.append(Pair(name, name, (term,), tested, true, errors, unit=unit, caption=caption, mask=mask))
     shown = narkowicz_curve().apply(truth).astype(np.float32)
@@ -103,34 +111,118 @@ def make_pairs(size: int = 96, broken: bool = False) -> list[Pair]:
     return pairs
 
 
+# Player: terms, whether an effect approximates them.
+PLAYERS = {
+    "cook_torrance": (("direct",), True),
+    "shadow_map": (("visibility",), True),
+    "constant_ambient": (("environment", "indirect"), True),
+    "environment_visibility": (("environment_visibility",), False),
+    "transmission": (("transmission",), False),
+}
+# Metric to share, its half-width, removed, its half-width: a row per player.
+SHARES = {
+    "mse": (
+        (-0.00021, 0.00005, -0.00034, 0.00006),
+        (0.00262, 0.00012, 0.00248, 0.00013),
+        (0.00095, 0.00006, 0.00081, 0.00007),
+        (0.00061, 0.0001, 0.00052, 0.00012),
+        (0.00002, 0.00009, 0.00003, 0.00011),
+    ),
+    "flip": (
+        (0.0031, 0.0009, 0.0008, 0.0011),
+        (0.0341, 0.0012, 0.0302, 0.0014),
+        (0.0188, 0.001, 0.016, 0.001),
+        (0.012, 0.002, 0.01, 0.002),
+        (0.0, 0.0, 0.0, 0.0),
+    ),
+}
+TOTALS = {"mse": (0.00421, 0.00012), "flip": (0.0721, 0.0019)}
+UNITS = {"mse": f"({RADIANCE})²", "flip": ""}
+
+
+def between(value: float, half: float, unit: str = "") -> Measurement:
+    """A value with a symmetric interval, as a jackknife gives it."""
+    return Measurement(value, value - half, value + half, unit, "U-statistic over 8 batches, jackknife, Student t")
+
+
+def make_attribution() -> Attribution:
+    """Shares to go with `make_results`: one is negative, one is noise, two belong to terms without an effect."""
+    players = tuple(
+        Player(
+            name,
+            terms,
+            approximated,
+            {metric: between(*rows[index][:2], UNITS[metric]) for metric, rows in SHARES.items()},
+            {metric: between(*rows[index][2:], UNITS[metric]) for metric, rows in SHARES.items()},
+        )
+        for index, (name, (terms, approximated)) in enumerate(PLAYERS.items())
+    )
+    return Attribution(
+        total={metric: between(*total, UNITS[metric]) for metric, total in TOTALS.items()},
+        residual={
+            metric: between(total - sum(player.share[metric].value for player in players), 0.0001, UNITS[metric])
+            for metric, (total, _) in TOTALS.items()
+        },
+        players=players,
+        subsets=32,
+        exhaustive=True,
+        seconds_per_subset={"mse": 0.0123, "flip": 0.21},
+    )
+
+
+def make_objects(count: int = 4) -> tuple[ObjectError, ...]:
+    """A floor, a ball, the background, and as many pebbles as it takes; the shares sum to 1."""
+    found = [("floor", "concrete", 4120, 0.71), ("ball", "red paint", 2630, 0.24), ("background", "", 1800, -0.01)]
+    pebbles = count - len(found)
+    found += [(f"pebble {index}", "stone", 40, 0.06 / pebbles) for index in range(pebbles)]
+    return tuple(
+        ObjectError(
+            name,
+            material,
+            pixels,
+            {"rmse": between(0.05 + share / 10, 0.002, RADIANCE), "bias": between(-0.01, 0.001, RADIANCE),
+             "flip": Measurement(0.07, 0.066, 0.078)},
+            between(share, 0.02),
+        )
+        for name, material, pixels, share in found
+    )  # fmt: skip
+
+
 def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-floor") -> Results:
     """Results to go with `make_pairs`."""
 
-    def about(value: float, half: float, unit: str = "", how: str = "U-statistic over 8 batches, jackknife, Student t"):
-        return Measurement(value, value - half, value + half, unit, how)
-
     def noisy(value: float, floor: float) -> Measurement:
-        return Measurement(value, None, None, "", "at the mean of 8 batches", floor, value * 0.98)
+        return Measurement(value, value * 0.96, value * 1.01, "", "at the mean of 8 batches", floor, value * 0.98)
 
     frame = {
-        "mse": about(0.00421, 0.00012, f"({RADIANCE})²"),
-        "rmse": about(0.06489, 0.0009, RADIANCE),
-        "nrmse": about(0.1421, 0.0021),
-        "bias": about(-0.0123, 0.0004, RADIANCE),
+        "mse": between(0.00421, 0.00012, f"({RADIANCE})²"),
+        "rmse": between(0.06489, 0.0009, RADIANCE),
+        "nrmse": between(0.1421, 0.0021),
+        "bias": between(-0.0123, 0.0004, RADIANCE),
         "psnr": Measurement(27.31, 27.1, 27.5, "dB", "of the unbiased MSE"),
         "ssim": noisy(0.9312, 0.991),
         "flip": noisy(0.0721, 0.0041),
+        "rms_p95": between(0.141, 0.003, RADIANCE),
+        "rms_p99": between(0.382, 0.011, RADIANCE),
+        "rms_worst_tile": between(0.291, 0.008, RADIANCE),
+        "flip_p95": Measurement(0.214, 0.201, 0.219),
+        "flip_p99": Measurement(0.433, 0.41, 0.441),
+        "flip_worst_tile": Measurement(0.377, 0.36, 0.381),
     }
     if broken:
         frame |= {name: Measurement(math.nan, how="failed: 2 non-finite pixels") for name in ("rmse", "nrmse", "flip")}
+    attribution = make_attribution()
+    shares = {player.name: player.share for player in attribution.players}
     effects = (
-        Effect("cook_torrance", ("direct",), {}, {"rmse": about(0.0112, 0.0002, RADIANCE), "flip": noisy(0.012, 0.003),
-               "ssim": noisy(0.9921, 0.999)}, Timing(1.82, 0.04, 40)),
+        Effect("cook_torrance", ("direct",), {},
+               {"rmse": between(0.0112, 0.0002, RADIANCE), "flip": noisy(0.012, 0.003), "ssim": noisy(0.9921, 0.999)},
+               Timing(1.82, 0.04, 40), shares["cook_torrance"]),
         Effect("shadow_map", ("visibility",), {"resolution": 1024, "filter": "pcf3", "bias": 0.0015},
-               {"rmse": about(0.0523, 0.0031, RADIANCE), "flip": noisy(0.044, 0.003), "ssim": noisy(0.951, 0.999)},
-               Timing(3.41, 0.12, 40)),
+               {"rmse": between(0.0523, 0.0031, RADIANCE), "flip": noisy(0.044, 0.003), "ssim": noisy(0.951, 0.999)},
+               Timing(3.41, 0.12, 40), shares["shadow_map"]),
         Effect("constant_ambient", ("environment", "indirect"), {"scale": 1.0},
-               {"rmse": about(0.0312, 0.0006, RADIANCE), "flip": noisy(0.025, 0.003), "ssim": noisy(0.97, 0.999)}),
+               {"rmse": between(0.0312, 0.0006, RADIANCE), "flip": noisy(0.025, 0.003), "ssim": noisy(0.97, 0.999)},
+               share=shares["constant_ambient"]),
         Effect("narkowicz", ("tone",), {"exposure": 1.0}, {"rmse": Measurement(0.0083, None, None, "code value")},
                Timing(0.31, 0.01, 40)),
     )  # fmt: skip
@@ -147,7 +239,7 @@ def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-flo
         },
         reference=Reference(512, 8, 14.2, False),
         effects=effects,
-        closure=Closure({"nrmse": about(0.0021, 0.0002)}, about(-0.0001, 0.0003, "", "mean over 8 batches")),
+        closure=Closure({"nrmse": between(0.0021, 0.0002)}, between(-0.0001, 0.0003)),
         left_out=(
             LeftOut("effect ssao", "the scene has no crevice that the environment reaches"),
             LeftOut("material 'lens', alpha BLEND", "no effect blends; the real-time frame draws it opaque"),
@@ -157,6 +249,8 @@ def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-flo
         else NonFinite(),
         notes=("The scene has no camera: one was framed around its bounds.",),
         not_approximated=("environment_visibility", "transmission"),
+        attribution=attribution,
+        objects=make_objects(),
         passes=(
             PassTime("gbuffer", "", 2.11, 0.05),
             PassTime("shadow map", "shadow_map", 1.92, 0.08),

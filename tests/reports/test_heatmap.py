@@ -3,7 +3,7 @@ import pytest
 from PIL import Image
 
 from lightmeter.reports.heatmap import MASKED, colour_map, colourise, ticks, write_heatmap
-from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, signed_error
+from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, share_map, signed_error
 
 
 def test_colours_run_from_the_first_to_the_last() -> None:
@@ -59,6 +59,22 @@ def test_png_holds_the_pixels_unblended_and_a_bar(tmp_path) -> None:
     assert bar[0].tolist() == magma.rgb[0].tolist()
     assert bar[-1].tolist() == magma.rgb[255].tolist()
     assert [item.name for item in tmp_path.iterdir()] == ["h.png"]
+
+
+def test_share_map_has_0_in_the_middle_of_its_bar(tmp_path) -> None:
+    values = np.zeros((40, 400), np.float32)
+    values[:20] = [-3.0] * 390 + [5.0] * 10
+    share = share_map("mse", values, "(W/sr/m²)²")
+    assert (share.name, share.title) == ("share_mse", "Share of the frame's squared error")
+    assert share.range() == (-5.0, 5.0)
+    sheet = np.asarray(Image.open(write_heatmap(tmp_path / "h.png", share)))
+    vik = colour_map("vik").rgb
+    picture, bar = sheet[40 : 40 + 40, 16 : 16 + 400], sheet[40 + 40 + 20, 16 : 16 + 400]
+    assert picture[30, 0].tolist() == bar[200].tolist() == vik[128].tolist()
+    assert picture[0, 395].tolist() == bar[399].tolist() == vik[255].tolist()
+    # −3 of ±5 is a fifth of the way along the bar, on the blue side.
+    assert picture[0, 0].tolist() == vik[int(0.2 * 256)].tolist()
+    assert vik[51][2] > vik[51][0]
 
 
 @pytest.mark.parametrize("limits", [(0.0, 1.0), (-3e-7, 3e-7), (0.0, 4.7e5), (0.0, 0.0), (0.0, float("nan"))])

@@ -1,5 +1,6 @@
 """The report, opened in a browser."""
 
+import dataclasses
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.embedded_data import pack_image, unpack_image
 from lightmeter.reports.html import render_report, write_report
-from lightmeter.reports.results import Frame, Results
+from lightmeter.reports.results import Attribution, Frame, ObjectError, Player, Results
 
 from .chromium_pipe import Page, find_chromium, open_chromium
 from .synthetic_pairs import make_pairs, make_results, narkowicz_curve
@@ -162,6 +163,91 @@ def test_a_row_opens_its_effect_and_the_keyboard_reads_pixels(page: Page, tmp_pa
     assert page.evaluate("document.querySelector('#exposure').disabled")
 
 
+PANELS = "[...document.querySelectorAll('.panel')].filter(p => p.checkVisibility()).map(p => p.dataset.metric)"
+
+
+def click(page: Page, selector: str) -> None:
+    """A real click in the middle of what the selector finds."""
+    place = page.evaluate(
+        f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect();"
+        f"return [b.left + b.width / 2, b.top + b.height / 2]; }})(document.querySelector({selector!r}))"
+    )
+    page.mouse("mousePressed", *place, button="left", clickCount=1)
+    page.mouse("mouseReleased", *place, button="left", clickCount=1)
+
+
+@needs_chromium
+def test_the_error_is_shown_by_one_metric_or_the_other(page: Page, tmp_path: Path) -> None:
+    open_report(page, write_report(tmp_path, make_results(32), make_pairs(32)))
+    assert page.evaluate(PANELS) == ["mse"]
+    click(page, "label[for=attribution-2]")
+    page.until(f"{PANELS}.join() === 'flip'")
+    page.evaluate("document.querySelector('#attribution-2').focus()")
+    page.key("ArrowLeft")
+    page.until(f"{PANELS}.join() === 'mse'")
+    assert page.evaluate("document.querySelector('.panel .advice li').textContent").startswith(
+        "Making shadow_map exact would remove 58.9 ± 3.1 %"
+    )
+
+
+@needs_chromium
+def test_the_numbers_need_no_script(page: Page, tmp_path: Path) -> None:
+    path = write_report(tmp_path, make_results(32), make_pairs(32))
+    page.send("Emulation.setScriptExecutionDisabled", value=True)
+    try:
+        page.open(path)
+        assert page.evaluate("document.querySelector('#caption').textContent") == ""
+        assert page.evaluate(PANELS) == ["mse"]
+        click(page, "label[for=attribution-2]")
+        page.until(f"{PANELS}.join() === 'flip'")
+    finally:
+        page.send("Emulation.setScriptExecutionDisabled", value=False)
+
+
+@needs_chromium
+def test_a_share_opens_the_map_of_where_it_lies(page: Page, tmp_path: Path) -> None:
+    pairs = {pair.name: pair for pair in make_pairs(64)}
+    open_report(page, write_report(tmp_path, make_results(64), list(pairs.values())))
+    shown = "document.querySelector('[data-pane=error] [data-label]').textContent"
+    click(page, ".panel[data-metric=mse] tr[data-pair=shadow_map] button")
+    page.until(SHOWN.format("shadow_map"))
+    assert page.evaluate(shown) == "Share of the frame's squared error"
+    assert page.evaluate("document.querySelector('#range-unit').textContent") == "(W/sr/m²)²"
+    share = pairs["shadow_map"].errors[2]
+    assert share.name == "share_mse"
+    page.evaluate("document.querySelector('[data-pane=error] canvas').focus()")
+    for _ in range(2):
+        page.key("ArrowRight")
+    page.until("document.querySelector('#place').textContent.startsWith('x 34, y 32')")
+    np.testing.assert_allclose(readout(page, "error"), share.values[32, 34], rtol=2e-3)
+
+    # The colour bar is symmetric, so that 0 is in its middle; pixels at 0 have the diverging map's middle colour.
+    ends = page.evaluate("[...document.querySelectorAll('#ticks span')].map(s => [s.textContent, s.style.left])")
+    positions = {text: float(left.rstrip("%")) for text, left in ends}
+    assert positions["0"] == pytest.approx(50)
+    assert all(text.startswith("−") == (left < 50) for text, left in positions.items() if text != "0")
+
+    click(page, "label[for=attribution-2]")
+    click(page, ".panel[data-metric=flip] tr[data-pair=constant_ambient] button")
+    page.until(SHOWN.format("constant_ambient"))
+    assert page.evaluate(shown) == "Share of the frame's FLIP"
+    click(page, ".card[data-pair=frame]")  # which has no such map: its first one
+    page.until(SHOWN.format("frame"))
+    assert page.evaluate(shown) == "RMS error"
+
+
+@needs_chromium
+@pytest.mark.parametrize("width", [1400, 400])
+def test_page_is_no_wider_than_the_window(page: Page, tmp_path: Path, width: int) -> None:
+    size = {"height": 1000, "deviceScaleFactor": 1, "mobile": False}
+    page.send("Emulation.setDeviceMetricsOverride", width=width, **size)
+    try:
+        open_report(page, write_report(tmp_path, make_results(32), make_pairs(32)))
+        assert page.evaluate("document.documentElement.scrollWidth") == width
+    finally:
+        page.send("Emulation.setDeviceMetricsOverride", width=1500, **size)
+
+
 @needs_chromium
 def test_pixels_that_are_not_finite_are_seen(page: Page, tmp_path: Path) -> None:
     open_report(page, write_report(tmp_path, make_results(64, True), make_pairs(64, True)))
@@ -179,6 +265,10 @@ def test_pixels_that_are_not_finite_are_seen(page: Page, tmp_path: Path) -> None
 def test_names_cannot_become_markup(page: Page, tmp_path: Path) -> None:
     evil = "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 1'>"
     results = make_results(32, scene=evil)
+    player = Player(evil, (evil,), True, *2 * [{"mse": Measurement(1.0, 0.9, 1.1, evil, evil)}])
+    parts = Attribution({"mse": Measurement(1.0)}, {}, (player,), 2, True)
+    objects = (ObjectError(evil, evil, 1, {"rmse": Measurement(1.0, unit=evil, how=evil)}, Measurement(1.0)),)
+    results = dataclasses.replace(results, attribution=parts, objects=objects)
     pairs = make_pairs(32)
     object.__setattr__(pairs[0], "title", evil)
     object.__setattr__(pairs[0], "caption", evil)
@@ -186,6 +276,8 @@ def test_names_cannot_become_markup(page: Page, tmp_path: Path) -> None:
     assert page.evaluate("window.broken") is None
     assert page.evaluate("document.querySelector('h1').textContent") == evil
     assert page.evaluate("document.querySelector('#viewer-title').textContent") == evil
+    assert page.evaluate("document.querySelector('.shares tbody th').innerText").startswith(evil)
+    assert page.evaluate("document.querySelector('.objects tbody th').textContent") == evil
     assert page.evaluate("document.querySelectorAll('img:not(.card img)').length") == 0
 
 

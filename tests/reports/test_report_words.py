@@ -29,6 +29,9 @@ from .synthetic_pairs import make_results
         (Measurement(math.nan, 0, 1), "NaN"),
         (Measurement(0, 0, 0), "0 ± 0"),
         (Measurement(1.0, -math.inf, 2.0), "1.00 (−∞ … 2.00)"),
+        (Measurement(0.0721, 0.0652, 0.0705), "0.0721 (0.0652 … 0.0705)"),  # a bound without the value's noise
+        (Measurement(0.5, 0.4, 0.4), "0.500 (0.400000 … 0.400000)"),
+        (Measurement(0.003, 0.0, 0.3), "0.00 (0.00 … 0.30)"),
     ],
 )
 def test_digits_follow_the_interval(measurement: Measurement, shown: str) -> None:

@@ -1,0 +1,190 @@
+"""`lightmeter sweep` as a user runs it, on small pictures."""
+
+import csv
+import io
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lightmeter import sweeping
+from lightmeter.failures import UsageError
+from lightmeter.knob_words import visits
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.mse import rmse
+from lightmeter.options import Budget
+from lightmeter.progress import silent
+from lightmeter.realtime.device import Device
+from lightmeter.realtime.discovery import effect, effects
+from lightmeter.realtime.effect import EffectError
+from lightmeter.realtime.graph import Choice, compile_plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.scenes.load import load
+from lightmeter.sides import coverage_sides, effect_sides
+from lightmeter.truth import Truth
+
+BRIEF = ("--spp", "16", "--curve", "0", "-o", "out")
+"""With a curve of one point, 1 spp."""
+
+
+@pytest.mark.parametrize("name", list(effects()))
+def test_the_values_that_a_knob_declares_for_a_sweep_are_values_it_takes(name):
+    for knob in effect(name).knobs:
+        assert [knob.read(value, name) for value in knob.sweep] == list(knob.sweep)
+        assert len(set(knob.sweep)) == len(knob.sweep)
+
+
+def test_a_star_goes_out_from_the_current_setting():
+    """Each knob by itself, the others as they are; what would be measured twice is measured once."""
+    shadow = effect("shadow_map")
+    current = shadow.settings({"resolution": 64})
+    found = visits(shadow, current)
+    assert found[0].knobs == current and found[0].varied == ()
+    assert all(sum(v.knobs[k] != current[k] for k in current) == 1 for v in found[1:])
+    # All six resolutions differ from 64; of the others the default is visited already.
+    assert len(found) == 1 + 6 + 1 + 3 + 3
+    assert len({tuple(v.knobs.items()) for v in found}) == len(found)
+
+
+def test_several_knobs_give_their_grid():
+    shadow = effect("shadow_map")
+    found = visits(shadow, shadow.settings({}), ["filter", "resolution=32,64,32", "bias=0.25"])
+    assert [(v.knobs["filter"], v.knobs["resolution"], v.knobs["bias"]) for v in found] == [
+        (kind, side, 0.25) for kind in ("hard", "pcf3") for side in (32, 64)
+    ]
+    assert all(v.varied == ("filter", "resolution", "bias") for v in found)
+
+
+def test_a_knob_without_declared_values_needs_them():
+    bare = replace(effect("shadow_map"), knobs=(replace(effect("shadow_map").knobs[0], sweep=()),))
+    with pytest.raises(UsageError, match="--knob resolution=v1,v2"):
+        visits(bare, bare.settings({}), ["resolution"])
+    with pytest.raises(UsageError, match="it has resolution"):
+        visits(bare, bare.settings({}))
+    with pytest.raises(EffectError, match="resolution"):
+        visits(bare, bare.settings({}), ["resolutio=3"])
+
+
+def test_a_sweep_of_shadow_maps(run, tmp_path):
+    """Error falls with the resolution, and every file says the same."""
+    knobs = ("--knob", "resolution=32,512", "--knob", "filter=hard")
+    words = ("--size", "48x48", "--spp", "16", "--curve", "2", "-o", "out", "--json")
+    found = run("sweep", "posts", "shadow_map", *knobs, *words)
+    assert found.code == 0, found.err
+    document = found.json
+    assert document == json.loads((tmp_path / "out" / "sweep.json").read_text())
+    assert document["complete"] and document["schema"] == 1 and document["device"]["cpu"]
+    (shadow,) = document["effects"]
+    coarse, fine = shadow["settings"]
+    assert (coarse["knobs"]["resolution"], fine["knobs"]["resolution"]) == (32, 512)
+    assert coarse["knobs"]["filter"] == "hard" and coarse["knobs"]["bias"] == 0.5
+    assert coarse["effect"]["metrics"]["rmse"]["value"] > 2 * fine["effect"]["metrics"]["rmse"]["value"] > 0
+    assert fine["effect"]["front"] == {"rmse": True, "flip": True}
+    for setting in (coarse, fine):
+        own, frame = setting["effect"]["time_ms"], setting["frame"]["time_ms"]
+        assert own["frames"] == frame["frames"] >= 20
+        assert 0 < own["median"] < 2 * frame["median"]
+    curve = document["path_tracer"]
+    assert [point["spp"] for point in curve] == [2**i for i in range(len(curve))] and len(curve) >= 3
+    # The variance falls as 1/n: from 1 to 4 spp by four, and by two at the very least.
+    assert curve[2]["metrics"]["rmse"]["value"] < curve[0]["metrics"]["rmse"]["value"] / math.sqrt(2)
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "out" / "sweep.csv").read_text())))
+    assert [float(row["effect_rmse"]) for row in rows[:2]] == [
+        s["effect"]["metrics"]["rmse"]["value"] for s in (coarse, fine)
+    ]
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"sweep.html", "sweep.json", "sweep.csv"}
+
+
+def test_supersampling_costs_what_the_frame_costs(run):
+    """It has no passes of its own; and four samples see the control's outline better than one."""
+    words = ("--without", "shadow_map", "--size", "32x32", "--spp", "64", "--curve", "0", "--json")
+    found = run("sweep", "control", "supersampling", "--knob", "grid=1,2", *words)
+    assert found.code == 0, found.err
+    (swept,) = found.json["effects"]
+    assert swept["own_time"] == "the whole frame"
+    one, two = swept["settings"]
+    assert one["effect"]["metrics"]["rmse"]["low"] > two["effect"]["metrics"]["rmse"]["high"]
+    assert two["effect"]["time_ms"] == two["frame"]["time_ms"]
+
+
+def test_supersampling_is_judged_at_all_its_samples():
+    """The control's error is its outline's: 8 × 8 samples, more than `effect_sides` looks at, err less than 4 × 4.
+
+    Where `effect_sides` looks at all, the two agree: the light is punctual, and nothing is left to chance.
+    """
+    truth = Truth(load("control"), (32, 32), Budget(256))
+
+    def renderer(grid: int) -> Renderer:
+        choice = Choice(without=("shadow_map",), settings={"supersampling": {"grid": grid}})
+        return Renderer(Device(), compile_plan(truth.scene, effects(), choice), truth.size)
+
+    def error(sides):
+        return rmse(Comparison(sides.tested, sides.truth)).value
+
+    four, eight = (coverage_sides(renderer(grid), truth, silent) for grid in (4, 8))
+    assert error(eight) < 0.75 * error(four)
+    some = effect_sides(renderer(4), truth, silent, only=("supersampling",))["supersampling"]
+    assert np.allclose(four.tested[0], some.tested[0], rtol=1e-6, atol=0)
+
+
+def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
+    chosen = ("--only", "cook_torrance,constant_ambient,narkowicz,srgb")
+    found = run("sweep", "posts", "--all", "--size", "16x16", *chosen, *BRIEF, "--no-store")
+    assert found.code == 0, found.err
+    document = json.loads((tmp_path / "out" / "sweep.json").read_text())
+    ambient, tone = document["effects"]
+    assert (ambient["effect"], tone["effect"]) == ("constant_ambient", "narkowicz")
+    assert "constant_ambient: effect alone" in found.out and "narkowicz: whole frame" in found.out
+    # The error of a tone curve is one of code values, which no path tracer's radiance is held against.
+    assert ambient["comparable"] and all("rmse" in s["effect"]["path_tracer"] for s in ambient["settings"])
+    assert not tone["comparable"] and all(s["effect"]["path_tracer"] == {} for s in tone["settings"])
+    assert all("rmse" in s["frame"]["path_tracer"] for s in tone["settings"])
+
+
+def test_what_was_measured_before_an_interrupt_is_written(run, tmp_path, monkeypatch):
+    measure, calls = sweeping.Sweeping._measure, []
+
+    def interrupted(self, name, visit):
+        calls.append(visit)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return measure(self, name, visit)
+
+    monkeypatch.setattr(sweeping.Sweeping, "_measure", interrupted)
+    found = run("sweep", "plane", "narkowicz", "--size", "16x16", *BRIEF)
+    assert found.code == 130 and "interrupted" in found.err
+    document = json.loads((tmp_path / "out" / "sweep.json").read_text())
+    assert not document["complete"] and len(document["effects"][0]["settings"]) == 2
+    assert document["path_tracer"] == []
+    assert (tmp_path / "out" / "sweep.html").exists()
+
+
+def test_an_interrupt_before_anything_is_measured_leaves_nothing(run, tmp_path, monkeypatch):
+    def interrupted(self, name, visit):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sweeping.Sweeping, "_measure", interrupted)
+    assert run("sweep", "plane", "narkowicz", "--size", "16x16", *BRIEF).code == 130
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_a_sweep_asks_for_no_oracle_that_its_effect_does_not_need(monkeypatch):
+    """Shadow maps are held against shadow rays: nothing is traced through the scene for its indirect light."""
+    truth = Truth(load("posts"), (16, 16), Budget(8))
+    asked, oracle = [], Truth._oracle
+
+    def counted(self, term, points, **options):
+        asked.append((term, options.get("light")))
+        return oracle(self, term, points, **options)
+
+    monkeypatch.setattr(Truth, "_oracle", counted)
+    renderer = Renderer(Device(), compile_plan(truth.scene, effects()), (16, 16))
+    alone = effect_sides(renderer, truth, silent, only=("shadow_map",))
+    # Punctual lights are exact, so that one batch of each serves for all.
+    assert sorted(asked) == [("visibility", light) for light in range(3)]
+    everything = effect_sides(renderer, truth, silent)
+    assert alone.keys() == {"shadow_map"}
+    for mine, theirs in zip(alone["shadow_map"].truth, everything["shadow_map"].truth, strict=True):
+        assert np.array_equal(mine, theirs)

@@ -1,0 +1,165 @@
+"""A sweep's page in a browser, and its JSON and CSV."""
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from lightmeter.reports.results import to_json
+from lightmeter.reports.sweep_figures import figure, groups
+from lightmeter.reports.sweep_page import write_sweep
+from lightmeter.reports.sweep_results import best, to_csv
+
+from .chromium_pipe import Page, find_chromium, open_chromium
+from .synthetic_sweep import make_sweep
+
+needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    """A browser with the page open."""
+    target = write_sweep(tmp_path_factory.mktemp("sweep"), make_sweep())
+    with open_chromium(tmp_path_factory.mktemp("profile")) as page:
+        page.open(target)
+        page.until("document.body.dataset.shown === 'effect rmse'")
+        yield page
+
+
+@pytest.fixture(autouse=True)
+def no_problems(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Whatever a test does, the console stays empty and nothing is fetched."""
+    yield
+    if "page" in request.fixturenames:
+        page = request.getfixturevalue("page")
+        assert page.problems == []
+        assert [url for url in page.requests if not url.startswith(("file:", "data:", "about:", "blob:"))] == []
+
+
+def choose(page: Page, view: str, metric: str) -> None:
+    for value in (view, metric):
+        page.evaluate(f"document.querySelector('input[value={value}]').click()")
+    page.until(f"document.body.dataset.shown === '{view} {metric}'")
+
+
+def trace(page: Page, name: str, plot: int = 0):
+    """A drawn trace, by its name in the legend."""
+    return page.evaluate(
+        f"(d => d && {{x: d.x, y: d.y, hover: d.hovertext}})"
+        f"(document.querySelectorAll('.plot')[{plot}].data.find(d => d.name === '{name}'))"
+    )
+
+
+@needs_chromium
+def test_pointing_at_a_point_shows_its_setting(page: Page) -> None:
+    choose(page, "effect", "rmse")
+    box = page.evaluate("(b => [b.left, b.top])(document.querySelector('.plot .nsewdrag').getBoundingClientRect())")
+    place = page.evaluate(
+        "(l => [l.xaxis.l2p(Math.log10(1.5)), l.yaxis.l2p(Math.log10(0.2))])"
+        "(document.querySelector('.plot')._fullLayout)"
+    )
+    for step in (3, 0):  # a browser tells of a pointer that moves
+        page.mouse("mouseMoved", box[0] + place[0] + step, box[1] + place[1])
+    page.until("!!document.querySelector('.plot .hovertext')")
+    text = page.evaluate("document.querySelector('.plot .hovertext').textContent")
+    assert "resolution 128, filter pcf3" in text
+    assert "0.2" in text and "1.50 ± 0.15 ms" in text
+    assert "on the Pareto front" in text and "the path tracer is as good after 16.0 ms" in text
+
+
+@needs_chromium
+def test_view_and_metric_can_be_chosen(page: Page) -> None:
+    """The frame's error is 0.01 more and its time 2 ms more; FLIP has values of its own."""
+    choose(page, "frame", "rmse")
+    drawn = trace(page, "filter hard")
+    assert drawn["x"] == [3.0, 4.5] and drawn["y"] == [0.31, 0.26]
+    choose(page, "frame", "flip")
+    assert trace(page, "filter hard")["y"] == [0.2, 0.2]
+    assert "FLIP" in page.evaluate("document.querySelector('.plot .ytitle').textContent")
+    shown = page.evaluate("[...document.querySelectorAll('[data-view]:not([hidden])')].map(e => ({...e.dataset}))")
+    assert {(e["view"], e["metric"]) for e in shown} == {("frame", "flip")} and len(shown) == 2
+
+
+@needs_chromium
+def test_code_values_have_no_path_tracer_beside_them(page: Page) -> None:
+    choose(page, "effect", "rmse")
+    assert trace(page, "path tracer", 0) and not trace(page, "path tracer", 1)
+    choose(page, "frame", "rmse")
+    assert trace(page, "path tracer", 1)
+
+
+@needs_chromium
+def test_it_is_readable_in_the_dark(page: Page) -> None:
+    """Ink and paper follow the reader's choice, while the page is open."""
+    colour = "getComputedStyle(document.querySelector('.plot .xtitle')).fill"
+    found = {}
+    for scheme in ("light", "dark"):
+        page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        wanted = page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--ink').trim()")
+        page.until(f"document.querySelector('.plot').layout.font.color === '{wanted}'")
+        found[scheme] = page.evaluate(colour)
+    assert found["light"] != found["dark"]
+
+
+def test_a_name_cannot_become_markup(tmp_path: Path) -> None:
+    text = write_sweep(tmp_path, make_sweep()).read_text(encoding="utf-8")
+    assert "<posts>" not in text and "&lt;posts&gt; &amp; co" in text
+
+
+def test_an_interrupted_sweep_says_so(tmp_path: Path) -> None:
+    assert "Interrupted" in write_sweep(tmp_path, make_sweep(complete=False)).read_text(encoding="utf-8")
+
+
+def test_json_and_csv_say_the_same() -> None:
+    document = json.loads(to_json(make_sweep()))
+    rows = list(csv.DictReader(io.StringIO(to_csv(make_sweep()))))
+    settings = [(e["effect"], s) for e in document["effects"] for s in e["settings"]]
+    assert len(rows) == len(settings) + len(document["path_tracer"])
+    for row, (effect, setting) in zip(rows, settings, strict=False):
+        assert row["what"] == effect and row["current"] == str(int(setting["current"]))
+        assert all(row[name] == str(value) for name, value in setting["knobs"].items())
+        for view in ("effect", "frame"):
+            standing = setting[view]
+            same(row[f"{view}_ms"], standing["time_ms"]["median"])
+            for name, measured in standing["metrics"].items():
+                for column, value in (("", measured["value"]), ("_low", measured["low"]), ("_high", measured["high"])):
+                    same(row[f"{view}_{name}{column}"], value)
+                assert row[f"{view}_{name}_front"] == str(int(standing["front"][name]))
+                crossed = standing["path_tracer"].get(name)
+                same(row[f"{view}_{name}_path_tracer_ms"], crossed and crossed["ms"])
+                assert row[f"{view}_{name}_path_tracer_relation"] == (crossed["relation"] if crossed else "")
+    for row, point in zip(rows[len(settings) :], document["path_tracer"], strict=True):
+        assert row["what"] == "path tracer" and row["spp"] == str(point["spp"])
+        same(row["frame_ms"], point["time_ms"]["median"])
+        same(row["frame_rmse"], point["metrics"]["rmse"]["value"])
+
+
+def same(cell: str, value) -> None:
+    """A cell holds a number of the JSON, in full precision; empty is null."""
+    if value is None:
+        assert cell == ""
+    elif value == "NaN":
+        assert math.isnan(float(cell))
+    else:
+        assert float(cell) == value
+
+
+def test_a_grid_has_a_line_per_value_of_its_shortest_knob() -> None:
+    settings = make_sweep().effects[0].settings
+    assert {name: len(members) for name, members in groups(settings).items()} == {"filter hard": 2, "filter pcf3": 3}
+
+
+def test_the_best_is_the_least_error_and_what_failed_is_not_drawn() -> None:
+    sweep = make_sweep()
+    shadow = sweep.effects[0]
+    found = best(shadow, "effect", "rmse")
+    assert found is not None and found.knobs == {"resolution": 256, "filter": "pcf3"}
+    drawn = figure(shadow, sweep.path_tracer, "effect", "rmse")["data"]
+    pcf3 = next(d for d in drawn if d["name"] == "filter pcf3")
+    assert pcf3["x"] == [1.5, 3.0]  # not the 0.5 ms of the one that is NaN
+    # An error of 0 has no place on a logarithmic axis: half the least above it, with a symbol of its own.
+    assert pcf3["y"][1] == 0.1 / 2 and pcf3["marker"]["symbol"][1] == "triangle-down-open"
