@@ -93,7 +93,7 @@ def effect_sides(
     for name in (material, coverage):
         if name is not None:
             sums[name] = _Sums()
-    composed = only is None or material is not None or coverage is not None
+    composed = material is not None or coverage is not None
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
     exact_points = at.exact_points if composed else points
     for batch in range(truth.batches):

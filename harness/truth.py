@@ -86,9 +86,9 @@ class Truth:
         self.missing = missing_terms(scene)
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
-        self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
         self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
         self._room = MEMORY
+        self._punctual: WeakKeyDictionary[SurfacePoints, dict[int, Ratio]] = WeakKeyDictionary()
 
     @cached_property
     def _world(self):
@@ -174,20 +174,22 @@ class Truth:
             family: names the random numbers, so that different points are given independent ones.
             spp: samples per point.
             keep: whether the store keeps the oracles one by one.
-            remember: whether the memory keeps them for who asks again.
+            remember: whether the memory keeps what the store keeps, for those who ask again.
             terms: those that are wanted; the others cost nothing and are missing from the batch.
         """
-        known, key = self._batches.setdefault(points, {}), (family, batch, spp, frozenset(terms))
-        if key in known:
-            return known[key]
-        found = self._make_batch(points, batch, family, spp, keep, set(terms) - set(self.missing))
+        there = frozenset(terms) - set(self.missing)
+        known = self._batches.setdefault(points, {})
+        name = family, batch, spp, there
+        if name in known:
+            return known[name]
+        found = self._make_batch(points, batch, family, spp, keep, there)
         if keep and remember and self._room >= found.bytes:
             self._room -= found.bytes
-            known[key] = found
+            known[name] = found
         return found
 
     def _make_batch(
-        self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: set[str]
+        self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: Collection[str]
     ) -> ExactBatch:
         options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
