@@ -56,7 +56,7 @@ def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[
                             maps[player] += weights[player, places].sum() * found
                     done += 1
                     report("shares of FLIP", done, len(groups) * len(game.orders.sets))
-    return NoisyErrors.of(game, values), dict(zip(game.names, maps.astype(np.float32), strict=True))
+    return NoisyErrors.of(game, values), {name: maps[i].astype(np.float32) for i, name in enumerate(game.names)}
 
 
 def _parts(layers: Layers, game: Game, sets) -> list[np.ndarray]:
