@@ -39,7 +39,7 @@ BUDGETS = {  # side of the image, samples per pixel, and how closure_batches spe
     "control": (64, 256, {"samples": 32}),
     "metal-rough-grid": (128, 3584, {"samples": 64, "spp": 2}),
     "torus": (64, 8192, {"samples": 128, "emission_spp": 128}),
-    "cornell-box": (64, 8192, {"samples": 128, "emission_spp": 256}),
+    "cornell-box": (64, 8192, {"samples": 128, "emission_spp": 1024, "spp": 2}),
 }
 
 
