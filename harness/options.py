@@ -155,6 +155,18 @@ def words(args: argparse.Namespace) -> Words:
     return Words(names(args.only), names(args.without), names(args.use), settings)
 
 
+def check_seconds(seconds: float | None, name: str = "--seconds") -> None:
+    """Raises UsageError where a time budget is none; `name` is what the message calls it."""
+    if seconds is not None and not 0 < seconds <= 1e6:
+        raise UsageError(f"{name}: expected a time above 0 and up to 1e6, got {seconds:g}")
+
+
+def check_confidence(confidence: float | None, name: str = "--confidence") -> None:
+    """Raises UsageError where it is no confidence that a verdict could have; `name` is what the message calls it."""
+    if confidence is not None and not 0.5 <= confidence < 1:
+        raise UsageError(f"{name}: expected 0.5 or more and below 1, got {confidence:g}")
+
+
 def output_folder(path: str | Path) -> Path:
     """The folder that results go to, made and tried before hours of work are spent on them.
 
