@@ -14,6 +14,7 @@ import hashlib
 import re
 import time
 import warnings
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -53,6 +54,15 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("lightmeter_strict", "fail where a limit is undecided, in place of a warning", "bool", False)
     parser.addini("lightmeter_confidence", "that no verdict of one call is wrong", default=DEFAULT_CONFIDENCE)
     parser.addini("lightmeter_seconds", "time for the verdicts of one call", default="")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Refuse options that make no sense before any test runs."""
+    try:
+        options.check_confidence(_number(config, "lightmeter_confidence"), "lightmeter_confidence")
+        options.check_seconds(_number(config, "lightmeter_seconds"), "lightmeter_seconds")
+    except UsageError as error:
+        raise pytest.UsageError(str(error)) from None
 
 
 @pytest.fixture
@@ -203,10 +213,9 @@ def _number(config: pytest.Config, name: str) -> float | None:
     option = config.getoption(name)
     text = config.getini(name) if option is None else option
     try:
-        return float(text) if text else None
-    except ValueError:
-        where = f"--{name.replace('_', '-')}" if option is not None else name
-        raise pytest.UsageError(f"{where}: expected a number, got {text!r}") from None
+        return options.number(text) if text else None
+    except ArgumentTypeError as error:
+        raise pytest.UsageError(f"{name}: {error}") from None
 
 
 def _folder_name(test: str) -> str:

@@ -13,6 +13,9 @@ from PIL import Image
 from lightmeter.pytest_plugin import Lightmeter
 from tests.harness.small_images import exr, noise, png
 
+ALONE = ("-p", "no:cacheprovider", "-p", "no:hypothesispytest")
+"""Hypothesis would be loaded, and forgotten, by every inner run."""
+
 SMALL = 'size="16x16", spp=16'
 HOLDS = f'lightmeter.hold("plane", "flip <= 0.5", "ssim >= 0.5", {SMALL})'
 FAILS = f'lightmeter.hold("plane", "flip <= 0.5", "narkowicz.nrmse <= 1e-9", {SMALL})'
@@ -22,11 +25,12 @@ UNDECIDED = f'lightmeter.hold("plane", "rmse <= 1e-6", {SMALL})'
 
 @pytest.fixture(scope="module")
 def loaded(tmp_path_factory, shared_store):
-    """Every module that the fixture needs: the inner pytest forgets those it loads, and NumPy stands that but once."""
+    """Every module that the fixture needs: an inner pytest forgets those it loads, and not all can be loaded twice."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("LIGHTMETER_STORE", str(shared_store))
         fixture = Lightmeter(0.999, None, False, tmp_path_factory.mktemp("loaded"), True, [])
-        fixture.hold("plane", "flip <= 0.5", "ssim >= 0.5", "narkowicz.nrmse <= 9", size="16x16", spp=16)
+        with pytest.raises(pytest.fail.Exception):
+            fixture.hold("plane", "flip <= 0.5", "ssim >= 0.5", "narkowicz.nrmse <= 1e-9", size="16x16", spp=16)
         fixture.hold_images(noise(), noise(), "flip <= 0.5", "rmse <= 0.5")
 
 
@@ -38,7 +42,7 @@ def inner(pytester, loaded, monkeypatch, shared_store):
     def call(*lines: str, options=()) -> pytest.RunResult:
         body = "\n    ".join(lines)
         pytester.makepyfile(f"def test_quality(lightmeter):\n    {body}\n")
-        return pytester.runpytest_inprocess("-p", "no:cacheprovider", "-p", "no:randomly", *options)
+        return pytester.runpytest_inprocess(*ALONE, *options)
 
     return call
 
@@ -121,12 +125,12 @@ def test_a_mistake_fails_with_one_message(inner, mistake):
     assert "Traceback" not in text and "During handling" not in text and "pytest_plugin.py" not in text
 
 
-def test_an_option_that_is_no_number_is_refused(inner, pytester):
+def test_an_option_that_makes_no_sense_is_refused_before_any_test(inner, pytester):
     result = inner(HOLDS, options=["--lightmeter-confidence", "high"])
-    result.assert_outcomes(errors=1)
-    result.stdout.fnmatch_lines(["*--lightmeter-confidence: expected a number, got 'high'"])
-    pytester.makeini("[pytest]\nlightmeter_seconds = long\n")
-    inner(HOLDS).stdout.fnmatch_lines(["*lightmeter_seconds: expected a number, got 'long'"])
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["ERROR: lightmeter_confidence: expected a number, got 'high'"])
+    pytester.makeini("[pytest]\nlightmeter_seconds = 0\n")
+    inner(HOLDS).stderr.fnmatch_lines(["ERROR: lightmeter_seconds: expected a time above 0 *"])
 
 
 def test_options_and_ini_give_what_a_call_does_not(inner, pytester):
@@ -192,7 +196,7 @@ def test_every_call_has_a_folder_of_its_own_where_asked(pytester, loaded, monkey
             {HOLDS}
         """
     )
-    result = pytester.runpytest_inprocess("-p", "no:cacheprovider", "--lightmeter-output", "out")
+    result = pytester.runpytest_inprocess(*ALONE, "--lightmeter-output", "out")
     result.assert_outcomes(passed=2)
     reports = sorted((pytester.path / "out").glob("*/*/report.md"))
     assert [path.parent.name for path in reports] == ["1", "2", "1", "2"]
@@ -212,10 +216,9 @@ def test_junit_tells_every_verdict(inner, pytester):
     assert failure is not None and "1 failed, 1 held" in str(failure.text)
 
 
-def test_a_fault_of_lightmeter_itself_keeps_its_traceback(inner, monkeypatch):
+def test_a_fault_of_lightmeter_itself_is_not_taken_for_the_users(loaded, monkeypatch, tmp_path):
     from lightmeter import holding
 
     monkeypatch.setattr(holding, "hold_trials", lambda *_: np.zeros(1)[2])
-    result = inner(HOLDS)
-    result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["*IndexError*"])
+    with pytest.raises(IndexError):
+        Lightmeter(0.999, None, False, tmp_path, False, []).hold("plane", "flip <= 1")

@@ -1,4 +1,4 @@
-"""What has to hold of our pictures, as tests: where limits belong to code, and where frames come from our own engine."""
+"""What has to hold of our pictures, as tests: beside the code they belong to, and for frames of our own engine."""
 
 import numpy as np
 
