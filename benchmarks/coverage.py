@@ -75,13 +75,14 @@ MSE's interval is longer than it must be: it has to be for noise in a single dir
 What falls short are batches of one sample whose noise is a rare event: an edge of the Cornell box's lamp, which the
 sub-pixel offset that all pixels of a batch share takes in or leaves out; the fireflies of `grid-sun`, whose pixels
 have a tail of index 1.4. Where none of the K batches has met the event, nothing in them says that it exists, and no
-interval made from them can hold its level. With 16 samples a batch the lamp's edge is covered; fireflies still are
-not. A gate counts how many samples carry the spread, and leaves such a reference undecided.
+interval made from them can hold its level. With 16 samples a batch the lamp's edge is covered, with 64 the fireflies
+are too. A gate counts how many samples carry the spread, and leaves such a reference undecided.
 
 ## Bounds of metrics that noise biases
 
-{bound_trials} trials each: coverage in per cent. An exact 95 % gives less than {bound_fewest} with a probability of
-{doubt}; such figures are bold.
+{bound_trials} trials each, batches of one sample: coverage in per cent. An exact 95 % gives less than {bound_fewest}
+with a probability of {doubt}; such figures are bold. What falls short is the worst tile of fireflies: where its error
+is one rare bright sample, most draws have not met it.
 
 | scene | image | batches | {bound_names} |
 | --- | --- | ---: | {rule} |

@@ -9,6 +9,7 @@ import numpy as np
 from lightmeter.attribution import Shares, attribute
 from lightmeter.closure import closure_batches
 from lightmeter.device import fingerprint
+from lightmeter.display_shares import attribute_display
 from lightmeter.families import Families, composition
 from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
@@ -157,6 +158,7 @@ def compare(
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,
+        display_attribution=attribute_display(plan, reference.batches) if shared else None,
         objects=object_errors(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),

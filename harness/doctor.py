@@ -218,9 +218,11 @@ def _gl_value(facts: dict) -> str:
 
 
 def _gl_note(facts: dict) -> str:
+    digest = device.device_digest(device.fingerprint(facts["renderer"], facts["version"]))
+    note = f"limits on time_ms call this device {digest}"
     if device.is_software(facts["renderer"]):
-        return "software rasteriser: frame times are the CPU's, taken as wall time"
-    return ""
+        note += "; software rasteriser: frame times are the CPU's, taken as wall time"
+    return note
 
 
 # --- the truth's side ---------------------------------------------------------------------------------------

@@ -7,17 +7,14 @@ at halves of the batches, which tells how far (see metrics/noise_bound.py).
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 
 import numpy as np
 
 from lightmeter.families import Layers
 from lightmeter.game import Game
 from lightmeter.metrics.flip import FlipAgainst
-from lightmeter.metrics.measurement import Measurement
-from lightmeter.metrics.noise_bound import QUARTERS, SPLITS, signed_bound
+from lightmeter.noisy_errors import NoisyErrors, batch_groups
 from lightmeter.progress import Report, silent
-from lightmeter.squared_shares import CONFIDENCE, sampling_error
 
 WORKERS = 2
 _SAME = 1e-6
@@ -27,54 +24,14 @@ _SAME = 1e-6
 Display = Callable[[np.ndarray], np.ndarray]
 
 
-@dataclass(frozen=True, eq=False)
-class FlipErrors:
-    """Mean FLIP of every set.
-
-    Attributes:
-        full: (m,), at the mean of all batches.
-        halves: (3, 2, m), at the mean of each half of three ways to halve them.
-    """
-
-    game: Game
-    full: np.ndarray
-    halves: np.ndarray
-
-    def share(self, player: int) -> Measurement:
-        """A player's Shapley share, signed."""
-        return self._measured(self.game.share_weights(player), "Shapley value")
-
-    def removed(self, player: int) -> Measurement:
-        """The error that goes away where the player alone is made exact, signed."""
-        return self._measured(self.game.removed_weights(player), "frame less frame with this exact")
-
-    def total(self) -> Measurement:
-        """The frame's error."""
-        return self._measured(self.game.total_weights(), "FLIP")
-
-    def residual(self) -> Measurement:
-        """What is left with everybody exact: noise, for the most part."""
-        return self._measured(self.game.residual_weights(), "FLIP")
-
-    def _measured(self, weights: np.ndarray, what: str) -> Measurement:
-        """A linear combination of the sets' errors: (p, m) weights, p samples of orders."""
-        samples, mean = weights @ self.full, weights.mean(axis=0)
-        value, half = float(samples.mean()), sampling_error(samples)
-        low, high = signed_bound(value, self.halves @ mean, CONFIDENCE)
-        how = f"{what} at the mean of {len(self.game.reference)} batches, bound from fewer batches"
-        return Measurement(value, low - half, high + half, "", how)
-
-
-def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[FlipErrors, dict[str, np.ndarray]]:
+def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[NoisyErrors, dict[str, np.ndarray]]:
     """FLIP of every set, and player to (H, W) float32: where its share lies.
 
     Args:
         display: maps (H, W, 3) scene-linear to display values, put on both sides.
     """
     batches, count = len(game.reference), len(game.orders.sets)
-    quarters = [list(range(quarter, batches, 4)) for quarter in QUARTERS]
-    halves = [sorted(b for quarter in half for b in quarters[quarter]) for split in SPLITS for half in split]
-    groups = [list(range(batches)), *halves]
+    groups = batch_groups(batches)
     values = np.zeros((len(groups), count))
     weights, maps = game.orders.mean, np.zeros((len(game.names), *game.reference.shape[1:3]))
     changes = _players_that_change_something(game)
@@ -99,8 +56,7 @@ def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[
                             maps[player] += weights[player, places].sum() * found
                     done += 1
                     report("shares of FLIP", done, len(groups) * len(game.orders.sets))
-    errors = FlipErrors(game, values[0], values[1:].reshape(len(SPLITS), 2, count))
-    return errors, dict(zip(game.names, maps.astype(np.float32), strict=True))
+    return NoisyErrors.of(game, values), {name: maps[i].astype(np.float32) for i, name in enumerate(game.names)}
 
 
 def _parts(layers: Layers, game: Game, sets) -> list[np.ndarray]:

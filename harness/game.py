@@ -16,13 +16,13 @@ class Game:
     Attributes:
         names: the players; bit i of a set stands for the i-th.
         orders: which sets are evaluated, with what weights.
-        families: the layers of every variant of the G-buffer.
+        families: the layers of every variant of the G-buffer; None for a game that is not played with layers.
         reference: (K, H, W, 3) batches.
     """
 
     names: tuple[str, ...]
     orders: Orders
-    families: Families
+    families: Families | None
     reference: np.ndarray
 
     def exact(self, players: int) -> tuple[str, ...]:

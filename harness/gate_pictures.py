@@ -20,7 +20,7 @@ def error_maps(trials: Sequence[Trial]) -> dict[tuple[str, str], ErrorMap]:
             continue
         display = trial.case.display if sides.space == "scene-linear" else clipped
         tested, truth = display(sides.tested[0]), display(sides.truth[0])
-        bad = ~np.isfinite(tested).all(axis=2)
-        error = ldr_flip(np.where(bad[..., None], truth, tested), truth)
+        bad = np.logical_not(np.isfinite(tested).all(axis=2))
+        error = ldr_flip(np.where(np.expand_dims(bad, 2), truth, tested), truth)
         found[key] = flip_error(np.where(bad, np.nan, error))
     return found

@@ -20,7 +20,7 @@ from lightmeter.realtime.display import DISPLAY_TERMS
 from lightmeter.reports.verdict import Verdict
 from lightmeter.sides import Sides
 from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject
-from lightmeter.verdict import bound_of, explain_verdict
+from lightmeter.verdict import STATUS, bound_of, explain_verdict
 
 PRECISE = 0.25
 """A baseline is precise enough when its interval's half is no more than this part of the regression it serves."""
@@ -198,7 +198,7 @@ def _step(work: Work, go_on: Callable[[], bool]) -> None:
             if found.side == "within" and _precise(trial.limit, found.measurement):
                 trial.verdict = _verdict(trial, work, "PASS", found.measurement)
         elif found.side != "open":
-            trial.verdict = _verdict(trial, work, "PASS" if found.side == "within" else "FAIL", found.measurement)
+            trial.verdict = _verdict(trial, work, STATUS[found.side], found.measurement)
     work.next_look += 1
 
 

@@ -261,10 +261,13 @@ def _inside(image: np.ndarray, mask: np.ndarray | None) -> np.ndarray:
 
 def _leave_out(images: list[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]]:
     """The mean of all, and the means without each of at most `PARTS` parts, (H, W, 3) float64."""
-    total = np.sum(images, axis=0, dtype=np.float64)
-    parts = [images[start :: min(PARTS, len(images))] for start in range(min(PARTS, len(images)))]
-    kept = [(total - np.sum(part, axis=0, dtype=np.float64)) / (len(images) - len(part)) for part in parts]
-    return total / len(images), kept
+    stack = np.stack(images).astype(np.float64)
+    total, parts = stack.sum(axis=0), min(PARTS, len(images))
+    kept = []
+    for start in range(parts):
+        part = stack[start::parts]
+        kept.append((total - part.sum(axis=0)) / (len(stack) - len(part)))
+    return total / len(stack), kept
 
 
 def _influences(

@@ -97,6 +97,8 @@ def _factors(batch: ExactBatch, key: int | str) -> tuple[np.ndarray, np.ndarray]
     """A and B of a light or of the environment."""
     if isinstance(key, int):
         return batch.shadowed[key], batch.direct[key]
+    assert batch.environment is not None
+    assert batch.environment_shadowed is not None
     return batch.environment_shadowed, batch.environment
 
 
@@ -137,13 +139,16 @@ def _transported(slot: Slot, light: int | None, exact: ExactBatch) -> np.ndarray
     """A itself: what arrives with radiance and visibility exact."""
     if slot.term == "direct":
         return exact.shadowed[light]
-    return exact.environment_shadowed if slot.term == "environment" else exact.indirect
+    found = exact.environment_shadowed if slot.term == "environment" else exact.indirect
+    assert found is not None, "the scene has what its slots are of"
+    return found
 
 
 def _buffer(captures: Sequence[Capture], term: str, light: int | None, neutral: float, shape) -> np.ndarray:
     """An effect's buffer at every point; the term's neutral value where no effect gives it."""
     found = [capture.frame.get(term) if light is None else getattr(capture, term).get(light) for capture in captures]
-    return np.full(shape, neutral, np.float32) if any(image is None for image in found) else np.stack(found)
+    there = [image for image in found if image is not None]
+    return np.stack(there) if there else np.full(shape, neutral, np.float32)
 
 
 def _ratio(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -5,9 +5,12 @@ import math
 from lightmeter.limits import Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
-from lightmeter.metrics.sequential import Bound
+from lightmeter.metrics.sequential import Bound, Side
 from lightmeter.reports.significant import show_number
 from lightmeter.reports.verdict import Status
+
+STATUS: dict[Side, Status] = {"within": "PASS", "beyond": "FAIL", "open": "UNDECIDED"}
+"""What a side means."""
 
 
 def bound_of(limit: Limit) -> Bound:
@@ -29,7 +32,7 @@ def judge(bound: Bound, measurement: Measurement) -> Status:
     low, high = measurement.low, measurement.high
     if low is None or high is None:
         low = high = measurement.value
-    return {"within": "PASS", "beyond": "FAIL", "open": "UNDECIDED"}[bound.side(low, high)]
+    return STATUS[bound.side(low, high)]
 
 
 def explain_verdict(limit: Limit, measurement: Measurement, status: Status) -> str:

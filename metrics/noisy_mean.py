@@ -60,7 +60,8 @@ class ErrorMap:
         key = self.name, self.display, "floor"
         if key not in comparison.maps:
             sides = [comparison.reference_part, *([comparison.tested_part] if comparison.paired else [])]
-            comparison.maps[key] = [self.between(*map(side, SPLITS[0]), comparison.mask) for side in sides]
+            one, other = SPLITS[0]
+            comparison.maps[key] = [self.between(side(one), side(other), comparison.mask) for side in sides]
         return comparison.maps[key]
 
 

@@ -84,7 +84,8 @@ class Geometry:
 
     def __init__(self, device: Device, scene: Scene, filtering: Knobs | None = None) -> None:
         filtering = filtering or {}
-        self._filter, self._anisotropy = filtering.get("filter", "sampler"), float(filtering.get("anisotropy", 1.0))
+        self._filter = str(filtering.get("filter", "sampler"))
+        self._anisotropy = float(filtering.get("anisotropy", 1.0))
         self._device, self._scene = device, scene
         self._textures: dict[Texture, Any] = {}
         self.batches = [

@@ -16,13 +16,16 @@ from lightmeter.reports.significant import show_measurement, show_number
 
 def attribution_content(results: Results, shown: set[str]) -> list[dict[str, Any]]:
     """A panel per metric; empty where nothing was attributed. `shown` are the names of the pairs in the viewer."""
-    attribution = results.attribution
-    if attribution is None:
-        return []
-    return [_panel(results, attribution, metric, shown) for metric in attribution.total]
+    wholes = {"Whole frame": results.attribution, "Display chain": results.display_attribution}
+    return [
+        _panel(results, attribution, metric, shown, whole)
+        for whole, attribution in wholes.items()
+        if attribution is not None
+        for metric in attribution.total
+    ]
 
 
-def _panel(results: Results, attribution: Attribution, metric: str, shown: set[str]) -> dict[str, Any]:
+def _panel(results: Results, attribution: Attribution, metric: str, shown: set[str], whole: str) -> dict[str, Any]:
     total = attribution.total[metric]
     parts = [player.share[metric] for player in attribution.players if metric in player.share]
     residual = attribution.residual.get(metric)
@@ -34,15 +37,17 @@ def _panel(results: Results, attribution: Attribution, metric: str, shown: set[s
         for player in attribution.players
         if metric in player.share
     ]
-    title = error_phrase(metric)
+    error = error_phrase(metric)
+    title = error[0].upper() + error[1:] if attribution is results.attribution else f"Display: {error}"
     return {
         "metric": metric,
-        "title": title[0].upper() + title[1:],
+        "title": title,
+        "whole": whole,
         "definition": definition(metric),
         "rows": rows,
         "unexplained": _share(residual, total, axis) if residual else None,
         "total": _share(total, total, axis) | {"in_unit": show_measurement(total)},
-        "frame_time": timed(results.frame.time_ms),
+        "frame_time": timed(results.frame.time_ms if attribution is results.attribution else None),
         "compensates": any(part.value < 0 for part in parts),
         "advice": [
             {"verdict": advice.verdict, "sentence": advice.sentence}

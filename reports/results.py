@@ -192,7 +192,11 @@ class NonFinite:
 
 @dataclass(frozen=True)
 class Results:
-    """Everything a report says in numbers. `size` is (width, height) in pixels."""
+    """Everything a report says in numbers.
+
+    `size` is (width, height) in pixels. `attribution` shares out the scene-linear image's error, `display_attribution`
+    that of the display chain on the exact image, in code values.
+    """
 
     scene: str
     size: tuple[int, int]
@@ -207,6 +211,7 @@ class Results:
     not_approximated: tuple[str, ...] = ()
     passes: tuple[PassTime, ...] = ()
     attribution: Attribution | None = None
+    display_attribution: Attribution | None = None
     objects: tuple[ObjectError, ...] = ()
     schema: int = SCHEMA
 
@@ -262,6 +267,7 @@ def from_json(text: str) -> Results:
         not_approximated=top.get("not_approximated", []).texts(),
         passes=tuple(_pass_time(item) for item in top.get("passes", []).items()),
         attribution=top.get("attribution", None).maybe(_attribution),
+        display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
     )
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-HEAVY = ("mitsuba", "drjit", "moderngl", "colour", "skimage", "scipy", "OpenEXR", "PyOpenColorIO")
+HEAVY = ("mitsuba", "drjit", "moderngl", "colour", "skimage", "scipy", "OpenEXR", "PyOpenColorIO", "plotly")
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ function layout(figure) {
     const ink = colour('--ink'), line = colour('--line'), panel = colour('--panel');
     const axis = {
         gridcolor: line, linecolor: line, zeroline: false, tickcolor: line, automargin: true,
-        minor: { showgrid: true, gridcolor: line, griddash: 'dot' }, dtick: 1, exponentformat: 'power',
+        minor: { showgrid: true, gridcolor: line, griddash: 'dot' }, exponentformat: 'power',
     };
     return {
         paper_bgcolor: panel, plot_bgcolor: panel, font: { color: ink, family: 'system-ui, sans-serif', size: 13 },

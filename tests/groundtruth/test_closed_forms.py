@@ -114,7 +114,12 @@ def polygon_irradiance(point, normal, corners) -> float:
 
 
 def test_the_form_factor_of_a_rectangular_light():
-    """Lambert's formula at points below, beside, and near a rectangle, and nothing behind it."""
+    """Lambert's formula at points below, beside, and near a rectangle, and nothing behind it.
+
+    Rays leave ε = 1500 · 2⁻²⁴ · (1 + max |p|) above the point (Mitsuba's offset), the density of the light's samples is
+    that at the point: at height h it is off by up to 2 ε / h. The power heuristic's weight w changes by 2 w (1 − w) ≤ ½
+    of that, so that the two strategies' weights add up to 1 but for ε / h. (Seen at h = 0.1: 4e-4 of 1.7e-3.)
+    """
     lamp = Material(base_color=(0, 0, 0), specular=0, emissive=(2, 3, 4))
     corner, across, up = (-0.5, 1, -0.5), (1, 0, 0), (0, 0, 1)
     mesh = rectangle(corner, across, up)  # looks down
@@ -126,7 +131,9 @@ def test_the_form_factor_of_a_rectangular_light():
     irradiance = [polygon_irradiance(np.float32(p), np.array([0, 1, 0]), corners) for p in positions[:4]] + [0.0]
     expected = np.array(irradiance)[:, None] / np.pi * np.array([2, 3, 4])
     batches = np.stack([direct.evaluate(world, points, 0, spp=16384, batch=b)[0] for b in range(12)])
-    assert_mean(batches, expected, half_width=2e-3)
+    offset = 1500 * 2**-24 * (1 + np.abs(positions).max(axis=1))
+    height = np.array([1.0, 1.0, 0.1, 0.5, 1.0])
+    assert_mean(batches, expected, slack=expected * (offset / height)[:, None], half_width=2e-3)
     both = np.stack([visibility.evaluate(world, points, 0, spp=256, batch=b)[:, 0] for b in range(4)])
     np.testing.assert_allclose(both[:, 0], both[:, 1], rtol=1e-6)
 

@@ -13,7 +13,7 @@ from lightmeter.game import Game
 from lightmeter.measuring import clipped
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.metrics.registry import measure
-from lightmeter.metrics.shapley import every_order
+from lightmeter.metrics.shapley import every_order, orders_for
 from lightmeter.options import Budget
 from lightmeter.scenes.load import load
 from lightmeter.squared_shares import squared_errors, squared_maps
@@ -27,16 +27,17 @@ def noisy(image, rng, sigma, batches=BATCHES):
     return image + sigma * rng.normal(size=(batches, *image.shape))
 
 
-def additive_game(rng, sigma=0.0, size=SIZE):
-    """Three effects that add up; the reference lies off the exact composition by `rest`."""
-    names = ("a", "b", "c")
-    exact = rng.random((3, *size, 3))
-    deltas = rng.normal(scale=[[[[0.3]]], [[[0.1]]], [[[0.02]]]], size=(3, *size, 3))
+def additive_game(rng, sigma=0.0, size=SIZE, scales=(0.3, 0.1, 0.02)):
+    """Effects that add up; the reference lies off the exact composition by `rest`."""
+    count = len(scales)
+    names = tuple("abcdefghijklmnop"[:count])
+    exact = rng.random((count, *size, 3))
+    deltas = rng.normal(scale=np.reshape(scales, (count, 1, 1, 1)), size=(count, *size, 3))
     rest = 0.05 * rng.normal(size=(*size, 3))
-    images = tuple(((exact[i] + deltas[i])[None], noisy(exact[i], rng, sigma)) for i in range(3))
+    images = tuple(((exact[i] + deltas[i])[None], noisy(exact[i], rng, sigma)) for i in range(count))
     layers = Layers(tuple(Slot("indirect", (name,)) for name in names), np.full((1, *size, 3), 0.1), images)
     reference = noisy(0.1 + exact.sum(axis=0) - rest, rng, sigma)
-    game = Game(names, every_order(3), SimpleNamespace(layers=lambda exact: layers), reference)
+    game = Game(names, orders_for(count, pairs=8), SimpleNamespace(layers=lambda exact: layers), reference)
     # |rest + Σ Δ|² is shared out as Δ_i · (Σ_j Δ_j + 2 rest), see metrics/shapley.py.
     shares = deltas * (deltas.sum(axis=0) + 2 * rest)
     return game, shares.mean(axis=(1, 2, 3)), shares.mean(axis=3), (rest**2).mean()
@@ -50,6 +51,17 @@ def test_shares_of_images_that_add_up_are_those_of_the_closed_form():
         np.testing.assert_allclose(found[name], maps[i], atol=1e-6)  # float32
     assert errors.residual().value == pytest.approx(residual, rel=1e-10)
     assert errors.total().value == pytest.approx(shares.sum() + residual, rel=1e-10)
+
+
+def test_beyond_ten_players_orders_are_sampled():
+    """Of squares, an order and its reverse give the Shapley value itself: nothing is left to sample."""
+    game, shares, _, residual = additive_game(np.random.default_rng(7), scales=np.linspace(0.05, 0.3, 12))
+    errors = squared_errors(game)
+    assert not game.orders.exhaustive
+    assert len(game.orders.sets) < 1 << 8
+    for i in range(12):
+        assert errors.share(i).value == pytest.approx(shares[i], rel=1e-8)
+    assert errors.residual().value == pytest.approx(residual, rel=1e-8)
 
 
 def test_noise_of_both_sides_does_not_bias_shares_and_intervals_cover():
