@@ -182,18 +182,19 @@ def test_a_pixel_that_is_not_finite_fails_and_is_found(inner):
     result.stdout.fnmatch_lines(["images: *row 3, column 4*"])
 
 
-def test_every_call_has_a_folder_of_its_own_where_asked(pytester, loaded, monkeypatch, shared_store):
+def test_every_call_has_a_folder_of_its_own_where_asked(pytester, loaded):
     """Names that a folder cannot hold are told apart, and what holds is reported too."""
-    monkeypatch.setenv("LIGHTMETER_STORE", str(shared_store))
     pytester.makepyfile(
-        f"""
+        """
+        import numpy as np
         import pytest
 
         @pytest.mark.parametrize("name", ["a/b", "a:b"])
         def test_quality(lightmeter, name, monkeypatch, tmp_path):
             monkeypatch.chdir(tmp_path)
-            {HOLDS}
-            {HOLDS}
+            for level in (0.5, 1.0):
+                image = np.full((16, 16, 3), level)
+                lightmeter.hold_images(image, image, "flip <= 0.1", "rmse <= 0.1")
         """
     )
     result = pytester.runpytest_inprocess(*ALONE, "--lightmeter-output", "out")
