@@ -17,7 +17,7 @@ from lightmeter.gating import Trial, decide, start_trials
 from lightmeter.groundtruth.store import Store
 from lightmeter.image_pair import ImagePair
 from lightmeter.limit_text import FORM, parse_limit
-from lightmeter.limits import DEFAULT_CONFIDENCE, DEFAULT_SPP, FRAME, Limit
+from lightmeter.limits import DEFAULT_SPP, FRAME, Limit
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.registry import find_metric
 from lightmeter.planning import check_metric, check_target, make_case
@@ -47,13 +47,16 @@ def conditions(
         knobs: {"shadow_map": {"resolution": 256}}.
 
     Raises:
-        UsageError: the size, the samples or the seed are out of range.
+        UsageError: the size, the samples or the seed are out of range, or the knobs have another form.
     """
     width, height = options.size(size if isinstance(size, str) else "x".join(map(str, size)), "size")
     if not options.MIN_BATCHES <= spp <= options.MAX_SPP:
         raise UsageError(f"spp: expected {options.MIN_BATCHES} to {options.MAX_SPP}, got {spp}")
     if not 0 <= seed < 1 << 32:
         raise UsageError(f"seed: expected 0 to {(1 << 32) - 1}, got {seed}")
+    for effect, of in (knobs or {}).items():
+        if not isinstance(of, Mapping):
+            raise UsageError(f"knobs: expected {{EFFECT: {{KNOB: VALUE}}}}, got {of!r} for {effect!r}")
     settings = sorted((effect, knob, value) for effect, of in (knobs or {}).items() for knob, value in of.items())
     return Conditions((width, height), spp, seed, camera, tuple(only), tuple(without), tuple(use), tuple(settings))
 
@@ -64,7 +67,7 @@ def hold(
     how: Conditions | None = None,
     *,
     seconds: float | None = None,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
 ) -> list[Verdict]:
     """Judge a scene's frame and effects.
@@ -91,7 +94,7 @@ def hold_trials(
     limits: Sequence[str | Limit],
     how: Conditions | None = None,
     seconds: float | None = None,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
 ) -> list[Trial]:
     """As `hold`, with what the verdicts rest on: cases, and images for a report (`gate_pictures.error_maps`)."""
@@ -120,7 +123,7 @@ def hold_images(
     reference: np.ndarray | None,
     limits: Sequence[str],
     *,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
 ) -> list[Verdict]:
     """Judge an image by another one, or by several batches of it.
 

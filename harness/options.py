@@ -13,6 +13,7 @@ from lightmeter.failures import UsageError
 
 DEFAULT_SIZE = "512x512"
 DEFAULT_SPP = 64
+DEFAULT_CONFIDENCE = 0.999
 MIN_BATCHES = 8
 MAX_SPP = 1 << 20
 

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from lightmeter.reports.verdict import Verdict
     from lightmeter.scenes.model import Scene
 
-DEFAULT_CONFIDENCE = "0.999"
-
 
 class UndecidedWarning(UserWarning):
     """A limit that the samples, or the seconds, could not decide."""
@@ -52,7 +50,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--lightmeter-confidence", metavar="C", help="that no verdict of one call is wrong")
     group.addoption("--lightmeter-seconds", metavar="S", help="time for the verdicts of one call")
     parser.addini("lightmeter_strict", "fail where a limit is undecided, in place of a warning", "bool", False)
-    parser.addini("lightmeter_confidence", "that no verdict of one call is wrong", default=DEFAULT_CONFIDENCE)
+    parser.addini("lightmeter_confidence", "that no verdict of one call is wrong", default="")
     parser.addini("lightmeter_seconds", "time for the verdicts of one call", default="")
 
 
@@ -69,16 +67,14 @@ def pytest_configure(config: pytest.Config) -> None:
 def lightmeter(request: pytest.FixtureRequest, tmp_path: Path) -> "Lightmeter":
     """Holds limits: `lightmeter.hold(scene, *limits)`, `lightmeter.hold_images(tested, reference, *limits)`."""
     config = request.config
-    asked = config.getoption("lightmeter_output")
-    confidence = _number(config, "lightmeter_confidence")
-    assert confidence is not None
+    folder = tmp_path / "lightmeter"
+    if asked := config.getoption("lightmeter_output"):
+        folder = config.invocation_params.dir / asked / _folder_name(request.node.nodeid)
     return Lightmeter(
-        confidence=confidence,
+        confidence=_number(config, "lightmeter_confidence") or options.DEFAULT_CONFIDENCE,
         seconds=_number(config, "lightmeter_seconds"),
         strict=config.getoption("lightmeter_strict") or config.getini("lightmeter_strict"),
-        folder=config.invocation_params.dir / asked / _folder_name(request.node.nodeid)
-        if asked
-        else tmp_path / "lightmeter",
+        folder=folder,
         always=bool(asked),
         properties=request.node.user_properties,
     )

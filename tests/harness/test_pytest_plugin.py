@@ -105,6 +105,8 @@ MISTAKES = {
     "keyword": ('hold("plane", "flip <= 1", siz="16x16")', "did you mean 'size'?"),
     "size": ('hold("plane", "flip <= 1", size="16")', "expected WxH"),
     "spp": ('hold("plane", "flip <= 1", spp=4)', "spp: expected 8 to"),
+    "knobs": ('hold("plane", "flip <= 1", knobs={"supersampling.grid": 2})', "for 'supersampling.grid'"),
+    "knob": ('hold("plane", "flip <= 1", knobs={"supersampling": {"gird": 2}})', "'grid'"),
     "confidence": ('hold("plane", "flip <= 1", confidence=1)', "confidence: expected 0.5 or more and below 1"),
     "seconds": ('hold("plane", "flip <= 1", seconds=0)', "seconds: expected a time above 0"),
     "file": ('hold_images("gone.exr", "gone.exr", "flip <= 1")', "gone.exr"),
