@@ -13,8 +13,9 @@ from PIL import Image
 from lightmeter.pytest_plugin import Lightmeter
 from tests.harness.small_images import exr, noise, png
 
-ALONE = ("-p", "no:cacheprovider", "-p", "no:hypothesispytest")
-"""Hypothesis would be loaded, and forgotten, by every inner run."""
+ALONE = ("-p", "no:cacheprovider", "-p", "no:hypothesispytest", "--tb=native")
+"""Hypothesis would be loaded, and forgotten, by every inner run. A traceback of pytest's own style looks at every
+module's attributes, which changes Dr.Jit's for good: what is forgotten then takes the process down later."""
 
 SMALL = 'size="16x16", spp=16'
 HOLDS = f'lightmeter.hold("plane", "flip <= 0.5", "ssim >= 0.5", {SMALL})'
