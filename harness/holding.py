@@ -10,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from lightmeter import options
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
 from lightmeter.gating import Trial, decide, start_trials
 from lightmeter.groundtruth.store import Store
 from lightmeter.image_pair import ImagePair
-from lightmeter.limit_text import parse_limit
-from lightmeter.limits import DEFAULT_CONFIDENCE, DEFAULT_SPP, FRAME, Limit
+from lightmeter.limit_text import FORM, parse_limit
+from lightmeter.limits import DEFAULT_SPP, FRAME, Limit
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.registry import find_metric
 from lightmeter.planning import check_metric, check_target, make_case
@@ -29,7 +30,7 @@ Knobs = Mapping[str, Mapping[str, KnobValue]]
 
 
 def conditions(
-    size: tuple[int, int] = (512, 512),
+    size: str | tuple[int, int] = options.DEFAULT_SIZE,
     spp: int = DEFAULT_SPP,
     seed: int = 0,
     camera: str | int | None = None,
@@ -38,9 +39,26 @@ def conditions(
     use: Sequence[str] = (),
     knobs: Knobs | None = None,
 ) -> Conditions:
-    """How a scene is judged: the keys of `[defaults]` in lightmeter.toml; `knobs` is its `set`."""
+    """How a scene is judged: the keys of `[defaults]` in lightmeter.toml; `knobs` is its `set`.
+
+    Args:
+        size: "128x128", or (width, height).
+        spp: samples per pixel at most.
+        knobs: {"shadow_map": {"resolution": 256}}.
+
+    Raises:
+        UsageError: the size, the samples or the seed are out of range, or the knobs have another form.
+    """
+    width, height = options.size(size if isinstance(size, str) else "x".join(map(str, size)), "size")
+    if not options.MIN_BATCHES <= spp <= options.MAX_SPP:
+        raise UsageError(f"spp: expected {options.MIN_BATCHES} to {options.MAX_SPP}, got {spp}")
+    if not 0 <= seed < 1 << 32:
+        raise UsageError(f"seed: expected 0 to {(1 << 32) - 1}, got {seed}")
+    for effect, of in (knobs or {}).items():
+        if not isinstance(of, Mapping):
+            raise UsageError(f"knobs: expected {{EFFECT: {{KNOB: VALUE}}}}, got {of!r} for {effect!r}")
     settings = sorted((effect, knob, value) for effect, of in (knobs or {}).items() for knob, value in of.items())
-    return Conditions(tuple(size), spp, seed, camera, tuple(only), tuple(without), tuple(use), tuple(settings))
+    return Conditions((width, height), spp, seed, camera, tuple(only), tuple(without), tuple(use), tuple(settings))
 
 
 def hold(
@@ -49,7 +67,7 @@ def hold(
     how: Conditions | None = None,
     *,
     seconds: float | None = None,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
 ) -> list[Verdict]:
     """Judge a scene's frame and effects.
@@ -76,10 +94,12 @@ def hold_trials(
     limits: Sequence[str | Limit],
     how: Conditions | None = None,
     seconds: float | None = None,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
 ) -> list[Trial]:
     """As `hold`, with what the verdicts rest on: cases, and images for a report (`gate_pictures.error_maps`)."""
+    _check(limits, confidence)
+    options.check_seconds(seconds, "seconds")
     source = scene if isinstance(scene, Scene) else str(scene)
     usual = how or conditions()
     cases = {}
@@ -103,7 +123,7 @@ def hold_images(
     reference: np.ndarray | None,
     limits: Sequence[str],
     *,
-    confidence: float = DEFAULT_CONFIDENCE,
+    confidence: float = options.DEFAULT_CONFIDENCE,
 ) -> list[Verdict]:
     """Judge an image by another one, or by several batches of it.
 
@@ -120,7 +140,14 @@ def hold_images(
         UsageError: a limit makes no sense for images.
         InputError: the images cannot be compared.
     """
-    return [_image_verdict(tested, reference, text, 1 - (1 - confidence) / max(1, len(limits))) for text in limits]
+    _check(limits, confidence)
+    return [_image_verdict(tested, reference, text, 1 - (1 - confidence) / len(limits)) for text in limits]
+
+
+def _check(limits: Sequence[str | Limit], confidence: float) -> None:
+    if not limits:
+        raise UsageError(f"there is no limit to hold: expected at least one, {FORM}")
+    options.check_confidence(confidence, "confidence")
 
 
 def _image_verdict(tested: ImagePair | np.ndarray, reference: np.ndarray | None, text: str, confidence: float):

@@ -53,7 +53,6 @@ TIMES = (TIME_RATIO, TIME_MS)
 """What can be limited beside the metrics of images."""
 
 DEFAULT_SPP = 1024
-DEFAULT_CONFIDENCE = 0.999
 BASELINE = "lightmeter.baseline.json"
 
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=1000)]
@@ -130,7 +129,7 @@ class BudgetEntry(Strict):
     """What all verdicts together may cost and how sure they must be."""
 
     seconds: Annotated[float, Field(strict=True, gt=0, le=1e6, allow_inf_nan=False)] | None = None
-    confidence: Annotated[float, Field(strict=True, ge=0.5, lt=1, allow_inf_nan=False)] = DEFAULT_CONFIDENCE
+    confidence: Annotated[float, Field(strict=True, ge=0.5, lt=1, allow_inf_nan=False)] = options.DEFAULT_CONFIDENCE
 
 
 class LimitsFile(Strict):

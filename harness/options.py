@@ -13,6 +13,7 @@ from lightmeter.failures import UsageError
 
 DEFAULT_SIZE = "512x512"
 DEFAULT_SPP = 64
+DEFAULT_CONFIDENCE = 0.999
 MIN_BATCHES = 8
 MAX_SPP = 1 << 20
 
@@ -153,6 +154,18 @@ def words(args: argparse.Namespace) -> Words:
             raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
         settings.setdefault(match[1], {})[match[2]] = match[3]
     return Words(names(args.only), names(args.without), names(args.use), settings)
+
+
+def check_seconds(seconds: float | None, name: str = "--seconds") -> None:
+    """Raises UsageError where a time budget is none; `name` is what the message calls it."""
+    if seconds is not None and not 0 < seconds <= 1e6:
+        raise UsageError(f"{name}: expected a time above 0 and up to 1e6, got {seconds:g}")
+
+
+def check_confidence(confidence: float | None, name: str = "--confidence") -> None:
+    """Raises UsageError where it is no confidence that a verdict could have; `name` is what the message calls it."""
+    if confidence is not None and not 0.5 <= confidence < 1:
+        raise UsageError(f"{name}: expected 0.5 or more and below 1, got {confidence:g}")
 
 
 def output_folder(path: str | Path) -> Path:

@@ -37,7 +37,8 @@ def run(args: argparse.Namespace) -> int:
     config = Path(args.config)
     if not config.exists():
         raise UsageError(f"{config}: there is no such file; it holds the limits, name it with --config")
-    _check_budget(args)
+    options.check_seconds(args.seconds)
+    options.check_confidence(args.confidence)
     files = {name: _writable(getattr(args, name), name) for name in ("junit", "markdown", "json_file")}
     folder = options.output_folder(args.output) if args.output else None
     from lightmeter.baseline import read_baseline
@@ -69,13 +70,6 @@ def run(args: argparse.Namespace) -> int:
     if undecided:
         options.say(f"{undecided} of {len(verdicts)} limits undecided: {_first_reason(verdicts)}")
     return code
-
-
-def _check_budget(args: argparse.Namespace) -> None:
-    if args.seconds is not None and not 0 < args.seconds <= 1e6:
-        raise UsageError(f"--seconds: expected a time above 0 and up to 1e6, got {args.seconds:g}")
-    if args.confidence is not None and not 0.5 <= args.confidence < 1:
-        raise UsageError(f"--confidence: expected 0.5 or more and below 1, got {args.confidence:g}")
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:
