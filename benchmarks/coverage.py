@@ -72,11 +72,10 @@ MSE's interval is longer than it must be: it has to be for noise in a single dir
 | --- | --- | ---: | ---: | ---: | ---: | ---: |
 {intervals}
 
-What falls short are batches of one sample whose noise is a rare event: an edge of the Cornell box's lamp, which the
-sub-pixel offset that all pixels of a batch share takes in or leaves out; the fireflies of `grid-sun`, whose pixels
-have a tail of index 1.4. Where none of the K batches has met the event, nothing in them says that it exists, and no
-interval made from them can hold its level. With 16 samples a batch the lamp's edge is covered, with 64 the fireflies
-are too. A gate counts how many samples carry the spread, and leaves such a reference undecided.
+What falls short are the fireflies of `grid-sun`, whose pixels have a tail of index 1.4: where none of the K batches has
+met one, nothing in them says that it exists, and no interval made from them can hold its level. With 64 samples a
+batch they are nearly covered. `compare` counts how many samples carry the spread and says so where they are few; a gate
+leaves such a reference undecided.
 
 ## Bounds of metrics that noise biases
 

@@ -1,6 +1,6 @@
 """The main job: one scene, two renderers, and every approximation against its truth."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.finite import find_non_finite
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.sequential import LEAST_COUNT, effective_count, squared_contributions
 from lightmeter.object_errors import object_errors
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
@@ -154,7 +155,7 @@ def compare(
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=_nonfinite(frame, sides),
-        notes=scene.notes + _notes(renderer, times),
+        notes=scene.notes + _notes(renderer, times) + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,
@@ -202,6 +203,17 @@ def _nonfinite(frame: Frame, sides: dict[str, Sides]) -> outcome.NonFinite:
         if item
     }
     return outcome.NonFinite(whole.pixels, {name: item.pixels for name, item in found.items() if item}, where)
+
+
+def few_carry(frame: np.ndarray, reference: Sequence[np.ndarray]) -> tuple[str, ...]:
+    """A note where few samples carry the spread of the frame's squared error: its interval may be too short then."""
+    count = effective_count(squared_contributions([(frame - batch).reshape(-1, 3) for batch in reference]))
+    if not count < LEAST_COUNT:
+        return ()
+    return (
+        f"Few samples carry the reference's noise (in effect {count:.0f}): fireflies, and others may not have been "
+        "drawn yet. Intervals may be too short; more samples per pixel help.",
+    )
 
 
 def _notes(renderer: Renderer, times: Times) -> tuple[str, ...]:
