@@ -119,8 +119,9 @@ def compare(
     display = display_transform(plan)
     at = FramePoints.of(renderer, truth)
     sides = effect_sides(renderer, truth, report, at) | display_sides(plan, reference.batches)
+    bad = _nonfinite(frame, sides)
     shared, lacking = None, {}
-    if shares and not _nonfinite(frame, sides).total():
+    if shares and not bad.total():
         families, among = Families(renderer, truth, frame.radiance, at, report), players(plan)
         shared = attribute(among, plan.effects, families, reference.batches, display, report)
         lacking = {name: _lacking(families, tuple(among), name) for name in among if name not in plan.effects}
@@ -154,7 +155,7 @@ def compare(
         ),
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
-        nonfinite=_nonfinite(frame, sides),
+        nonfinite=bad,
         notes=scene.notes + _notes(renderer, times) + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),

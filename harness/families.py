@@ -52,7 +52,7 @@ class Families:
     Args:
         frame: (H, W, 3), the frame's radiance. Its own layers are shifted to add up to it: a frame of many samples is
             taken apart at some of them.
-        at: the frame's points, where the caller has them.
+        at: the frame's points.
     """
 
     def __init__(
@@ -60,11 +60,11 @@ class Families:
         renderer: Renderer,
         truth: Truth,
         frame: np.ndarray,
-        at: FramePoints | None = None,
+        at: FramePoints,
         report: Report = silent,
     ) -> None:
         self._renderer, self._truth, self._frame, self._report = renderer, truth, frame, report
-        self._at = at or FramePoints.of(renderer, truth)
+        self._at = at
         self._slots = slots(renderer.plan)
         self._known: dict[tuple[bool, bool], Layers] = {}
         self._shift = np.zeros(1)
@@ -83,8 +83,7 @@ class Families:
         at, truth = self._at, self._truth
         points, captures = at.points, at.captures
         if material_exact and at.exact_points is not points:
-            points = at.exact_points
-            captures = [self._renderer.shade(at_sample(points, n)) for n in range(len(captures))]
+            points, captures = at.exact_points, _shaded(self._renderer, at.exact_points)
         family = "exact material" if material_exact else "frame"
         batches = [truth.batch(points, batch, family, at.spp) for batch in range(truth.batches)]
         ratios = exact_ratios(batches)
@@ -169,8 +168,9 @@ def offset_layers(
     def make(batch: int) -> dict[str, np.ndarray]:
         captures = [renderer.capture(tuple(place), terms=bool(slots)) for place in offsets[batch]]
         points = stack_points([capture.points for capture in captures])
-        if material_exact:
-            points, captures = _with_exact_material(renderer, truth, points, captures, bool(slots))
+        exact_points = truth.exact_material(points) if material_exact else points
+        if exact_points is not points:
+            points, captures = exact_points, _shaded(renderer, exact_points) if slots else captures
         exact = truth.batch(points, batch, "closure", spp, keep=False)
         variate = truth.emission_variate(offsets[batch], batch, emission_spp)
         base = mean_samples(points.emission) if slots else exact.composition()
@@ -189,11 +189,6 @@ def offset_layers(
     report("composition", count, count)
 
 
-def _with_exact_material(
-    renderer: Renderer, truth: Truth, points: SurfacePoints, captures: list[Capture], shaded: bool
-) -> tuple[SurfacePoints, list[Capture]]:
-    """The points with unfiltered parameters, and the effects' buffers at them where those are wanted."""
-    exact = truth.exact_material(points)
-    if exact is points or not shaded:
-        return exact, captures
-    return exact, [renderer.shade(at_sample(exact, n)) for n in range(len(captures))]
+def _shaded(renderer: Renderer, points: SurfacePoints) -> list[Capture]:
+    """The effects' buffers at each of (n, H, W) points."""
+    return [renderer.shade(at_sample(points, n)) for n in range(len(points.shape))]

@@ -36,7 +36,7 @@ def flip_errors(game: Game, display: Display, report: Report = silent) -> tuple[
     weights, maps = game.orders.mean, np.zeros((len(game.names), *game.reference.shape[1:3]))
     changes = _players_that_change_something(game)
     done = 0
-    for layers, sets in game.by_variant():
+    for layers, sets in game.by_variant:
         same: dict[int, list[int]] = {}
         for place, players in sets:
             same.setdefault(players & changes, []).append(place)
@@ -75,7 +75,7 @@ def _players_that_change_something(game: Game) -> int:
     """The set of players whose exactness changes an image or the points that it is composed at."""
     scale = float(np.sqrt(np.mean(_mean(game.reference, list(range(len(game.reference)))) ** 2, dtype=np.float64)))
     found = 0
-    variants = [layers for layers, _ in game.by_variant()]
+    variants = [layers for layers, _ in game.by_variant]
     for i, name in enumerate(game.names):
         moves = game.families.layers((name,)) is not game.families.layers(())
         if moves or any(_changes(layers, name, _SAME * scale) for layers in variants):

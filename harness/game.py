@@ -1,7 +1,7 @@
 """The game that an error is shared out by: its players, the sets that are evaluated, the layers each set adds up."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -29,13 +29,14 @@ class Game:
         """The names in a set."""
         return tuple(name for i, name in enumerate(self.names) if players >> i & 1)
 
-    def by_variant(self) -> Iterator[tuple[Layers, list[tuple[int, int]]]]:
-        """Every variant's layers, with the (place in `orders.sets`, set) that are composed from them."""
+    @cached_property
+    def by_variant(self) -> tuple[tuple[Layers, list[tuple[int, int]]], ...]:
+        """Every variant's layers, with the (place in `orders.sets`, set) that are composed from them. Renders them."""
         found: dict[int, tuple[Layers, list[tuple[int, int]]]] = {}
         for place, players in enumerate(map(int, self.orders.sets)):
             layers = self.families.layers(self.exact(players))
             found.setdefault(id(layers), (layers, []))[1].append((place, players))
-        yield from found.values()
+        return tuple(found.values())
 
     def share_weights(self, player: int) -> np.ndarray:
         """(p, m): the player's share by each sample of orders is this times the errors of the m sets."""

@@ -156,8 +156,7 @@ def _check_effect(limit: Limit, name: str, key: str, case: Case) -> None:
     if name not in known:
         raise UsageError(f"{limit.place}.{key}: there is no effect {name!r}; {nearest(name, [FRAME, *known])}")
     if name not in plan.effects:
-        why = next((item.why for item in plan.left_out if item.what == name), "nothing in this frame needs it")
-        there = ", ".join([FRAME, *plan.effects])
+        why, there = plan.why_absent(name), ", ".join([FRAME, *plan.effects])
         raise UsageError(f"{limit.place}.{key}: {name} takes no part in {case.name}: {why}; it has: {there}")
     if limit.is_time and name != plan.effect_of("coverage") and not any(step.effect == name for step in plan.steps):
         raise UsageError(f"{limit.place}.{key}: {name} draws no pass of its own, so that it has no time")

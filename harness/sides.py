@@ -49,18 +49,25 @@ class FramePoints:
     Attributes:
         captures: what the effects gave at each of them.
         points: (n, H, W), as the G-buffer holds them.
-        spp: samples per point of the oracles.
     """
 
     truth: Truth
     captures: list[Capture]
     points: SurfacePoints
-    spp: int
 
     @cached_property
     def exact_points(self) -> SurfacePoints:
         """The same points with unfiltered parameters; `points` itself where the scene has no textures."""
         return self.truth.exact_material(self.points)
+
+    @property
+    def spp(self) -> int:
+        """Samples per point of the oracles: the reference's, shared by the points of a pixel."""
+        return self.spp_of(self.truth.reference.spp)
+
+    def spp_of(self, spp: int) -> int:
+        """What is left of some samples per pixel for each of its points."""
+        return max(1, spp // len(self.captures))
 
     @classmethod
     def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
@@ -68,7 +75,7 @@ class FramePoints:
         offsets = some_offsets(renderer.offsets)
         captures = [renderer.capture(tuple(offset)) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
-        return cls(truth, captures, points, max(1, truth.reference.spp // len(offsets)))
+        return cls(truth, captures, points)
 
 
 def effect_sides(

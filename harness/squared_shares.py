@@ -82,7 +82,7 @@ def squared_errors(game: Game) -> SquaredErrors:
     batches, count = len(game.reference), len(game.orders.sets)
     values, left_out = np.zeros(count), np.zeros((count, batches))
     grams = {}
-    for layers, sets in game.by_variant():
+    for layers, sets in game.by_variant:
         products = inner_products(layers, game.reference)
         for place, players in sets:
             summands = coefficients(layers, game.exact(players), batches)
@@ -127,7 +127,7 @@ def squared_maps(game: Game) -> dict[str, np.ndarray]:
     height, width = game.reference.shape[1:3]
     maps = np.zeros((len(game.names), height, width))
     weights = game.orders.mean
-    for layers, sets in game.by_variant():
+    for layers, sets in game.by_variant:
         halves = [_means(layers, slice(first, None, 2)) for first in (0, 1)]
         truths = [game.reference[first::2].mean(axis=0, dtype=np.float64) for first in (0, 1)]
         for place, players in sets:

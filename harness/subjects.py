@@ -23,8 +23,8 @@ from lightmeter.metrics.sequential import (
 )
 from lightmeter.realtime.timing import Recording
 from lightmeter.scenes.points import SurfacePoints
-from lightmeter.sides import Sides, contribution, display_sides, some_offsets
-from lightmeter.stacking import mean_samples, stack_points
+from lightmeter.sides import FramePoints, Sides, contribution, display_sides
+from lightmeter.stacking import mean_samples
 
 MOST_BATCHES = 256
 """A first look costs 8 batches: a thirtieth of the samples."""
@@ -184,32 +184,24 @@ class EffectSubject(ImageSubject):
         self.composed = effect in (case.plan.effect_of("material"), case.plan.effect_of("coverage"))
 
     @cached_property
-    def _captures(self):
-        return [self.case.renderer.capture(tuple(offset)) for offset in some_offsets(self.case.renderer.offsets)]
-
-    @cached_property
-    def _points(self):
-        return stack_points([capture.points for capture in self._captures])
-
-    @cached_property
-    def _exact_points(self):
-        return self.case.truth.exact_material(self._points)
+    def _at(self) -> FramePoints:
+        return FramePoints.of(self.case.renderer, self.case.truth)
 
     def draw(self, number: int, size: int) -> np.ndarray:
         """(2, H, W, 3): tested and truth."""
-        spp = max(1, self.spp // len(self._captures)) * size
+        at, spp = self._at, self._at.spp_of(self.spp) * size
         plan, truth = self.case.plan, self.case.truth
         if not self.composed:
             terms = plan.effects[self.effect][0].terms
-            exact = truth.batch(self._points, number, "frame", spp, remember=False, terms=terms)
-            both = contribution(plan, self.effect, self._captures, exact)
+            exact = truth.batch(at.points, number, "frame", spp, remember=False, terms=terms)
+            both = contribution(plan, self.effect, at.captures, exact)
             return np.stack([mean_samples(image) for image in both])
-        exact = self._composition(self._exact_points, "exact material", number, spp)
+        exact = self._composition(at.exact_points, "exact material", number, spp)
         if self.effect == plan.effect_of("coverage"):
             return np.stack([exact, truth.reference_batch(number, self.spp * size)])
-        if self._exact_points is self._points:  # no textures, nothing to filter
+        if at.exact_points is at.points:  # no textures, nothing to filter
             return np.stack([exact, exact])
-        return np.stack([self._composition(self._points, "frame", number, spp), exact])
+        return np.stack([self._composition(at.points, "frame", number, spp), exact])
 
     def _composition(self, points: SurfacePoints, family: str, number: int, spp: int) -> np.ndarray:
         return self.case.truth.batch(points, number, family, spp, remember=False).composition()

@@ -224,8 +224,7 @@ def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[
 
 def _absent(scene: Scene, choice: Choice, plan: Plan, name: str) -> str:
     """Why an effect cannot be swept, and what would help."""
-    why = next((item.why for item in plan.left_out if item.what == name), "nothing in this frame needs it")
-    message = f"{name} takes no part in {scene.name}: {why}; it has: {', '.join(plan.effects)}"
+    message = f"{name} takes no part in {scene.name}: {plan.why_absent(name)}; it has: {', '.join(plan.effects)}"
     preferred = compile_plan(scene, effects(), replace(choice, use=(name, *choice.use)))
     return message + (f"; `--use {name}` prefers it" if name in preferred.effects else "")
 

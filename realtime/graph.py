@@ -74,6 +74,10 @@ class Plan:
         """The name of the effect that gives a term of the frame; None where none does."""
         return next((name for name, (effect, _) in self.effects.items() if term in effect.terms), None)
 
+    def why_absent(self, effect: str) -> str:
+        """Why an effect that exists takes no part in this frame."""
+        return next((item.why for item in self.left_out if item.what == effect), "nothing in this frame needs it")
+
     def lights_of(self, effect: str) -> tuple[int, ...]:
         """The lights an effect is drawn for."""
         return tuple(step.light for step in self.steps if step.effect == effect and step.light is not None)
