@@ -47,3 +47,16 @@ def test_nothing_is_seen_where_no_point_is(device):
     found = there.shade(nowhere)
     assert (found.direct[0][:, :16] == 0).all()
     assert (found.direct[0][8:24, 17:24] > 0).any()
+
+
+def test_the_buffers_add_up_to_the_frame_whichever_lights_map_was_drawn_last(device):
+    """Several lights share a shadow map's texture; a capture draws it anew only where another light's is in it."""
+    there = renderer(device, load("posts"))
+    frame = there.render().radiance
+    for _ in range(2):
+        found = there.capture()
+        total = found.points.emission.astype(np.float64)
+        total += sum(found.direct[light] * found.visibility[light] for light in found.direct)
+        total += found.frame["environment"] + found.frame["indirect"]
+        # A handful of float32 additions and products.
+        np.testing.assert_allclose(total, frame, rtol=16 * 2**-24, atol=1e-7)
