@@ -94,7 +94,8 @@ def effect_sides(
     plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
     wanted = set(plan.effects if only is None else only)
     captures, points, spp = at.captures, at.points, at.spp
-    shading = {step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS} & wanted
+    drawn = dict.fromkeys(step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS)
+    shading = [name for name in drawn if name in wanted]
     sums = {name: _Sums() for name in shading}
     material, coverage = (name if name in wanted else None for name in map(plan.effect_of, ("material", "coverage")))
     for name in (material, coverage):

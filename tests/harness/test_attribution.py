@@ -204,3 +204,9 @@ def test_a_frame_that_is_not_finite_has_no_shares(monkeypatch):
     found = compare(load("plane"), (16, 16), Budget(8))
     assert found.results.attribution is None
     assert found.results.nonfinite.frame == 1
+
+
+def test_pictures_come_in_the_order_that_effects_are_drawn_in(outcome):
+    """Not in one that differs from run to run."""
+    drawn = list(dict.fromkeys(step.effect for step in outcome.plan.steps))
+    assert [name for name in outcome.sides if name in drawn] == [name for name in drawn if name in outcome.sides]
