@@ -10,7 +10,7 @@ KNOWN = (
     ("lightmeter.groundtruth.folder", "ReferenceFolderError"),
     ("lightmeter.metrics.input_error", "InputError"),
     ("lightmeter.reports.image_error", "ImageError"),
-    ("lightmeter.reports.results", "ResultsError"),
+    ("lightmeter.reports.results_json", "ResultsError"),
 )
 
 

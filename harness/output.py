@@ -11,7 +11,7 @@ from lightmeter.metrics.flip import ldr_flip
 from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, share_map, signed_error
-from lightmeter.reports.results import to_json
+from lightmeter.reports.results_json import to_json
 from lightmeter.scenes.terms import TERMS
 from lightmeter.sides import Sides
 

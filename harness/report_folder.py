@@ -9,7 +9,8 @@ from lightmeter.reports.heatmap import write_heatmap
 from lightmeter.reports.html import write_report
 from lightmeter.reports.layers import write_layers
 from lightmeter.reports.pictures import Pair
-from lightmeter.reports.results import Results, write_json
+from lightmeter.reports.results import Results
+from lightmeter.reports.results_json import write_json
 
 
 def write_folder(folder: Path, results: Results, pairs: Sequence[Pair], curve: DisplayCurve | None = None) -> Path:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from lightmeter.reports.metric_words import definition, label
-from lightmeter.reports.results import to_json
+from lightmeter.reports.results_json import to_json
 from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
 from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Sweep, SweptEffect, to_csv

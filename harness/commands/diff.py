@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _show(results, report: Path, as_json: bool) -> None:
     """The table, or results.json itself, on stdout."""
-    from lightmeter.reports.results import to_json
+    from lightmeter.reports.results_json import to_json
 
     if as_json:
         sys.stdout.write(to_json(results))

@@ -79,7 +79,7 @@ def run(args: argparse.Namespace) -> int:
 def _print(sweep, page: Path, json: bool) -> None:
     """The tables, or sweep.json itself, on stdout; where the page is on stderr or at the end."""
     if json:
-        from lightmeter.reports.results import to_json
+        from lightmeter.reports.results_json import to_json
 
         sys.stdout.write(to_json(sweep))
         print(f"page: {page}", file=sys.stderr)

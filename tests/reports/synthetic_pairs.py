@@ -9,9 +9,13 @@ from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.pictures import Pair, flip_error, rms_error, share_map, signed_error
 from lightmeter.reports.results import (
     Attribution,
+    Candidate,
     Closure,
     Effect,
+    FailedCandidate,
+    Finding,
     Frame,
+    LayerError,
     LeftOut,
     NonFinite,
     ObjectError,
@@ -260,3 +264,63 @@ def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-flo
             PassTime("narkowicz", "narkowicz", 0.31, 0.01),
         ),
     )
+
+
+def make_candidates() -> tuple[Candidate, ...]:
+    """Our own frame, an engine with a fault, layers and shares, and one whose time holds its start-up."""
+
+    def metrics(rmse: float, flip: float) -> dict[str, Measurement]:
+        return {
+            "rmse": Measurement(rmse, rmse * 0.97, rmse * 1.03, RADIANCE),
+            "relative_bias": Measurement(-rmse / 2, -rmse * 0.52, -rmse * 0.48),
+            "ssim": Measurement(1 - flip, 1 - flip * 1.1, 1 - flip * 0.9),
+            "flip": Measurement(flip, flip * 0.95, flip * 1.05, floor=0.0041),
+        }
+
+    direct = Player("direct", ("direct",), True, {"mse": Measurement(0.0011, 0.001, 0.0012)}, {})
+    rest = Player("rest", (), False, {"mse": Measurement(0.0002, 0.0001, 0.0003)}, {})
+    return (
+        Candidate(
+            "lightmeter",
+            "lightmeter",
+            metrics(0.081, 0.09),
+            Timing(9.87, 0.21, 40),
+            "wall time around a finished frame",
+            pixels=4000,
+        ),
+        Candidate(
+            "our <engine> & co",
+            "command",
+            metrics(0.036, 0.05),
+            Timing(22.4, 0.9, 20),
+            "reported by the engine",
+            pixels=4000,
+            masked={"unsupported material glass": 80, "background": 16},
+            findings=(
+                Finding("shift", "shifted by 0.50 pixels right and 0.00 down", {"right": 0.5, "down": 0.0}),
+                Finding("exposure", "brighter by a factor of 1.50", {"factor": 1.5}, corrected=True),
+            ),
+            layers=(
+                LayerError("direct", "direct", metrics(0.021, 0.03), 4000),
+                LayerError("visibility.0", "visibility", metrics(0.011, 0.02), 4000),
+            ),
+            attribution=Attribution(
+                {"mse": Measurement(0.0013, 0.0012, 0.0014)},
+                {"mse": Measurement(0.0, -0.0001, 0.0001)},
+                (direct, rest),
+                4,
+                True,
+            ),
+            engine="Engine 3.1",
+            device="llvmpipe",
+            notes=("No indirect light.",),
+        ),
+        Candidate(
+            "slow", "file", metrics(0.02, 0.03), Timing(2400.0, 0.0, 1), "measured around the command", True, 4000
+        ),
+    )
+
+
+def make_failed() -> tuple[FailedCandidate, ...]:
+    """An engine that gave nothing."""
+    return (FailedCandidate("broken", "it ended with exit code 1; its last output: no display"),)

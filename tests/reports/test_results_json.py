@@ -6,13 +6,19 @@ import numpy as np
 import pytest
 
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.reports.results import Frame, Results, ResultsError, from_json, to_json, write_json
+from lightmeter.reports.results import Frame, Results
+from lightmeter.reports.results_json import ResultsError, from_json, to_json, write_json
 
-from .synthetic_pairs import make_results
+from .synthetic_pairs import make_candidates, make_failed, make_results
 
 
 def test_results_come_back_as_they_were() -> None:
     results = make_results()
+    assert from_json(to_json(results)) == results
+
+
+def test_candidates_come_back_as_they_were() -> None:
+    results = dataclasses.replace(make_results(), candidates=make_candidates(), failed_candidates=make_failed())
     assert from_json(to_json(results)) == results
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lightmeter.reports.results import to_json
+from lightmeter.reports.results_json import to_json
 from lightmeter.reports.sweep_figures import figure, groups
 from lightmeter.reports.sweep_page import write_sweep
 from lightmeter.reports.sweep_results import best, to_csv
