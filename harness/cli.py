@@ -12,6 +12,7 @@ from lightmeter.hints import nearest
 COMMANDS = {
     "compare": "measure a real-time frame against the path-traced truth, effect by effect",
     "reference": "write the truth alone, as a folder that CI can cache or commit",
+    "export": "write a scene as glTF, environment and camera.json, for another engine to draw",
     "sweep": "measure error against run time over an effect's knobs, beside the path tracer",
     "gate": "hold the limits of lightmeter.toml, and say which failed",
     "diff": "compare two images on disk",

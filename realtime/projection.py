@@ -3,6 +3,7 @@
 import numpy as np
 
 from lightmeter.scenes.model import Camera
+from lightmeter.scenes.projection import clip_from_camera
 
 
 def view_matrix(camera: Camera) -> np.ndarray:
@@ -18,21 +19,10 @@ def projection_matrix(camera: Camera, size: tuple[int, int], offset: tuple[float
         offset: where in the pixel the scene is sampled, in pixels right and down from its centre.
     """
     width, height = size
-    near, far = camera.near, camera.far
-    matrix = np.zeros((4, 4))
-    if camera.yfov is not None:
-        scale = 1 / np.tan(camera.yfov / 2)
-        matrix[2] = 0, 0, (far + near) / (near - far), 2 * far * near / (near - far)
-        matrix[3, 2] = -1
-    else:
-        scale = 1 / camera.ymag
-        matrix[2] = 0, 0, 2 / (near - far), (far + near) / (near - far)
-        matrix[3, 3] = 1
-    matrix[0, 0], matrix[1, 1] = scale * height / width, scale
     # Sampling further right moves the picture left; image rows run down, clip space runs up.
     shift = np.eye(4)
     shift[0, 3], shift[1, 3] = -2 * offset[0] / width, 2 * offset[1] / height
-    return shift @ matrix
+    return shift @ clip_from_camera(camera, size)
 
 
 def viewer(camera: Camera) -> np.ndarray:

@@ -1,0 +1,85 @@
+"""A scene written as the files that another engine reads."""
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lightmeter.reports.image_files import write_exr
+from lightmeter.scenes.errors import SceneError
+from lightmeter.scenes.export import ENVIRONMENT_FILE, camera_document, gltf_files
+from lightmeter.scenes.model import Scene
+
+ENVIRONMENT_SIZE = (64, 32)
+"""Width and height of a constant environment's image."""
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What `export` wrote.
+
+    Attributes:
+        folder: where everything lies.
+        gltf, camera: scene.gltf and camera.json.
+        environment: environment.exr, or None where the scene has no environment.
+        files: every file, the buffer and the textures included, in the order they were written.
+        notes: what glTF cannot say, or an engine may not read as it is meant.
+    """
+
+    folder: Path
+    gltf: Path
+    camera: Path
+    environment: Path | None
+    files: tuple[Path, ...]
+    notes: tuple[str, ...]
+
+
+def export(scene: Scene, size: tuple[int, int], folder: Path) -> Exported:
+    """Write scene.gltf with what it names, environment.exr and camera.json, each file in one step.
+
+    camera.json comes last: once it is there, so is all the rest. `size` is the image's width and height in pixels.
+
+    Raises:
+        SceneError: the scene holds a number that is not finite, or a texture that PNG cannot hold.
+        OSError: the folder cannot be written to.
+        ImageError: environment.exr cannot be written.
+    """
+    made = gltf_files(scene, size)
+    document, camera = (_json(content, scene) for content in (made.content, camera_document(scene, size)))
+    files = [_write(folder / name, data) for name, data in made.files.items()]
+    files.append(_write(folder / "scene.gltf", document))
+    environment = None
+    if scene.environment is not None:
+        width, height = ENVIRONMENT_SIZE
+        radiance = np.broadcast_to(np.float32(scene.environment.radiance), (height, width, 3))
+        environment = write_exr(folder / ENVIRONMENT_FILE, radiance)
+        files.append(environment)
+    files.append(_write(folder / "camera.json", camera))
+    return Exported(folder, folder / "scene.gltf", files[-1], environment, tuple(files), made.notes)
+
+
+def _json(content: dict[str, Any], scene: Scene) -> bytes:
+    """Strict JSON in UTF-8; what a name holds that UTF-8 cannot say (a file name's stray byte) becomes "?"."""
+    try:
+        text = json.dumps(content, ensure_ascii=False, allow_nan=False, indent=1)
+    except ValueError:
+        raise SceneError(
+            "the scene cannot be exported: it holds a number that is not finite",
+            where=scene.name,
+            remedy="check its positions, matrices and lights",
+        ) from None
+    return text.encode("utf-8", errors="replace")
+
+
+def _write(path: Path, data: bytes) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        partial.write_bytes(data)
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+    return path

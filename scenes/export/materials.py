@@ -1,0 +1,71 @@
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+
+from typing import Any
+
+from ..model import Material
+from .radiant import color_and_strength
+from .textures import Textures
+
+EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
+
+
+class Materials:
+    """The materials of one file; each is written once.
+
+    Attributes:
+        materials: glTF's array.
+        textures: what they look up.
+        extensions: which extensions were used.
+    """
+
+    def __init__(self):
+        self.materials: list[dict[str, Any]] = []
+        self.textures = Textures()
+        self.extensions: set[str] = set()
+        self._numbers: dict[Material, int] = {}
+
+    def number(self, material: Material) -> int:
+        """Where a material stands in `materials`.
+
+        Raises:
+            SceneError: PNG cannot hold a texture.
+        """
+        if material not in self._numbers:
+            self._numbers[material] = len(self.materials)
+            self.materials.append(self._content(material))
+        return self._numbers[material]
+
+    def _content(self, material: Material) -> dict[str, Any]:
+        info = {slot: self.textures.info(texture) for slot, texture in material.textures.items()}
+        pbr: dict[str, Any] = {
+            "baseColorFactor": [*material.base_color, material.alpha],
+            "metallicFactor": material.metallic,
+            "roughnessFactor": material.roughness,
+        }
+        if "base_color" in info:
+            pbr["baseColorTexture"] = info["base_color"]
+        if "metallic_roughness" in info:
+            pbr["metallicRoughnessTexture"] = info["metallic_roughness"]
+        content: dict[str, Any] = {
+            "name": material.name,
+            "pbrMetallicRoughness": pbr,
+            "doubleSided": material.double_sided,
+        }
+        if "normal" in info:
+            content["normalTexture"] = info["normal"] | {"scale": material.normal_scale}
+        if "occlusion" in info:
+            content["occlusionTexture"] = info["occlusion"] | {"strength": material.occlusion_strength}
+        if "emissive" in info:
+            content["emissiveTexture"] = info["emissive"]
+        if material.alpha_mode == "mask":
+            content |= {"alphaMode": "MASK", "alphaCutoff": material.alpha_cutoff}
+        content["emissiveFactor"], strength = color_and_strength(material.emissive)
+        extensions = {}
+        if strength != 1:
+            extensions[EMISSIVE_STRENGTH] = {"emissiveStrength": strength}
+        if material.specular != 1:
+            extensions[SPECULAR] = {"specularFactor": material.specular}
+        if extensions:
+            content["extensions"] = extensions
+            self.extensions |= set(extensions)
+        return content
