@@ -18,7 +18,7 @@ _WITHOUT_LIGHT = {
     "Scene": {"name", "summary", "notes"},
     "Camera": {"name", "near", "far", "exposure"},
     "Shape": {"name"},
-    "Material": {"name", "occlusion_texture", "occlusion_strength"},
+    "Material": {"name", "occlusion_texture", "occlusion_strength", "left_out"},
     "Texture": {"min_filter"},
     "Image": {"name"},
     "PointLight": {"name"},

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-from lightmeter.failures import UsageError, explain, user_failures
+from lightmeter.failures import USAGE_ERROR, UsageError, explain, user_failures
 from lightmeter.hints import nearest
 
 COMMANDS = {
@@ -23,7 +23,6 @@ COMMANDS = {
     "doctor": "say what this machine has, and the command for what it lacks",
 }
 
-USAGE_ERROR = 2
 INTERRUPTED = 130
 
 

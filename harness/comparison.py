@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter.attribution import Shares, attribute
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.gathering import Gathered, gather
+from lightmeter.candidates.side_by_side import SideBySide, compare_candidates
 from lightmeter.closure import closure_batches
 from lightmeter.device import fingerprint
 from lightmeter.display_shares import attribute_display
@@ -66,6 +69,7 @@ class Outcome:
         display: the frame's display transform.
         shares: of the frame's error; None where they were not asked for, or the frame is not finite.
         lacking: term that no effect approximates to the image without it and with it, everything else exact.
+        others: frames of other renderers.
     """
 
     results: outcome.Results
@@ -76,6 +80,7 @@ class Outcome:
     plan: Plan
     shares: Shares | None
     lacking: dict[str, Sides]
+    others: SideBySide
 
 
 def compare(
@@ -89,6 +94,8 @@ def compare(
     shares: bool = True,
     report: Report = silent,
     say: Callable[[str], None] = lambda _message: None,
+    candidates: Sequence[Candidate] = (),
+    candidates_folder: Path | None = None,
 ) -> Outcome:
     """Render both sides and measure.
 
@@ -100,12 +107,18 @@ def compare(
         shares: whether the frame's error is shared out among the effects.
         report: told of progress.
         say: told of what the user should know.
+        candidates: other renderers, whose frames are measured beside ours.
+        candidates_folder: where what they are given and what they leave is kept; None: nowhere.
 
     Raises:
         EffectError: the choice names what does not exist.
         DeviceError, NoRendererError: a renderer cannot run here.
+        UsageError: no candidate gave a frame, or one does not fit the scene.
     """
     plan = compile_plan(scene, effects(), choice)
+    display = display_transform(plan)
+    # Before the truth, which may take long: a command that fails is told at once.
+    gathered = gather(candidates, scene, size, display, candidates_folder, report) if candidates else Gathered()
     device = Device()
     renderer = Renderer(device, plan, size)
     frame = renderer.render()
@@ -116,7 +129,6 @@ def compare(
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
-    display = display_transform(plan)
     at = FramePoints.of(renderer, truth)
     sides = effect_sides(renderer, truth, report, at) | display_sides(plan, reference.batches)
     bad = _nonfinite(frame, sides)
@@ -134,6 +146,9 @@ def compare(
     questions |= {_CLOSURE: Question(CLOSURE_METRICS, closed)}
     questions |= {name: Question(EFFECT_METRICS, side) for name, side in sides.items()}
     measured = answers(questions, display, report)
+    frame_metrics = measured[_FRAME] | measured[_COSTLY]
+    ours = frame_metrics, _timing(times.frame), times.method
+    others = compare_candidates(gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report)
     results = outcome.Results(
         scene=scene.name,
         size=size,
@@ -141,7 +156,7 @@ def compare(
         reference=outcome.Reference(
             reference.spp * truth.batches, truth.batches, reference.seconds, reference.reused == truth.batches
         ),
-        frame=outcome.Frame(measured[_FRAME] | measured[_COSTLY], _timing(times.frame)),
+        frame=outcome.Frame(frame_metrics, _timing(times.frame)),
         effects=tuple(
             outcome.Effect(
                 effect=name,
@@ -164,8 +179,10 @@ def compare(
         objects=object_errors(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),
+        candidates=others.results,
+        failed_candidates=gathered.failed,
     )
-    return Outcome(results, frame, reference.batches, sides, display, plan, shared, lacking)
+    return Outcome(results, frame, reference.batches, sides, display, plan, shared, lacking, others)
 
 
 def _lacking(families: Families, everyone: tuple[str, ...], term: str) -> Sides:

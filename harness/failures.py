@@ -2,6 +2,9 @@
 
 import sys
 
+USAGE_ERROR = 2
+"""The exit code of a command that ends with such a message."""
+
 KNOWN = (
     ("lightmeter.scenes.errors", "SceneError"),
     ("lightmeter.realtime.effect", "EffectError"),

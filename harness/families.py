@@ -6,7 +6,7 @@ sub-pixel offsets of each batch's own (coverage exact); with the G-buffer's para
 exact).
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import MOST_SAMPLES, FramePoints
 from lightmeter.stacking import at_sample, mean_samples, stack_points
 from lightmeter.substitution import Slot, exact_ratios, player_of, slot_image, slots
-from lightmeter.truth import FAMILIES, Truth
+from lightmeter.truth import FAMILIES, ExactBatch, Truth
 
 EMISSION_SPP = 32
 """Samples per pixel of the emission's control variate."""
@@ -86,17 +86,7 @@ class Families:
             points, captures = at.exact_points, _shaded(self._renderer, at.exact_points)
         family = "exact material" if material_exact else "frame"
         batches = [truth.batch(points, batch, family, at.spp) for batch in range(truth.batches)]
-        ratios = exact_ratios(batches)
-        images = []
-        for slot in self._slots:
-            many = [batches if _is_noisy(slot, which, truth.scene) else batches[:1] for which in slot.sets]
-            images.append(
-                tuple(
-                    np.stack([slot_image(slot, which, captures, batch, ratios) for batch in those])
-                    for which, those in zip(slot.sets, many, strict=True)
-                )
-            )
-        layers = Layers(self._slots, mean_samples(points.emission)[None], tuple(images))
+        layers = layers_at(self._slots, points, captures, batches, truth.scene)
         if material_exact:
             self.layers(())  # whose shift is this one's too
         else:
@@ -112,6 +102,31 @@ class Families:
             images.append(tuple(rest[start : start + len(slot.sets)]))
             start += len(slot.sets)
         return Layers(self._slots, base, tuple(images))
+
+
+def layers_at(
+    slots: tuple[Slot, ...],
+    points: SurfacePoints,
+    captures: Sequence[Capture],
+    batches: Sequence[ExactBatch],
+    scene: Scene,
+) -> Layers:
+    """The layers at some points; what needs no oracle is the same for all batches.
+
+    Args:
+        points: (n, H, W), of which `captures` holds what the effects gave and `batches` what is exact.
+    """
+    ratios = exact_ratios(batches)
+    images = []
+    for slot in slots:
+        many = [batches if _is_noisy(slot, which, scene) else batches[:1] for which in slot.sets]
+        images.append(
+            tuple(
+                np.stack([slot_image(slot, which, captures, batch, ratios) for batch in those])
+                for which, those in zip(slot.sets, many, strict=True)
+            )
+        )
+    return Layers(slots, mean_samples(points.emission)[None], tuple(images))
 
 
 def composition(layers: Layers, exact: Collection[str]) -> np.ndarray:

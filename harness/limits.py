@@ -38,6 +38,8 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, model_validator
 
 from lightmeter import options
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.configured import CandidateEntry
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
 from lightmeter.regions import EVERYWHERE, Region
@@ -138,6 +140,7 @@ class LimitsFile(Strict):
     baseline: Name = BASELINE
     budget: BudgetEntry = BudgetEntry()
     defaults: Setting = Setting()
+    candidate: tuple[CandidateEntry, ...] = ()
     limit: tuple[LimitEntry, ...] = ()
 
 
@@ -215,6 +218,16 @@ def read_rules(path: Path) -> Rules:
         )
     limits = tuple(_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit))
     return Rules(limits, path.parent / file.baseline, file.budget.seconds, file.budget.confidence)
+
+
+def read_candidates(path: Path) -> tuple[Candidate, ...]:
+    """The candidates that a limits file describes, whether it holds limits or not.
+
+    Raises:
+        SceneError: it is missing, no TOML, or does not follow the schema; the message names the place.
+    """
+    file = read_toml(read_bytes(path, LARGEST), LimitsFile, str(path))
+    return tuple(entry.candidate(path.parent) for entry in file.candidate)
 
 
 def _limit(entry: LimitEntry, defaults: Setting, place: str) -> Limit:

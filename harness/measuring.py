@@ -27,6 +27,7 @@ class Question:
         bounds: whether metrics that noise biases get bounds, for twelve error maps in place of two.
         mask: (H, W) boolean, True where pixels count; None: all.
         confidence: of every interval.
+        display: the display transform for this question alone; None: the frame's.
     """
 
     names: tuple[str, ...]
@@ -34,6 +35,7 @@ class Question:
     bounds: bool = False
     mask: np.ndarray | None = None
     confidence: float = 0.95
+    display: Display | None = None
 
 
 def answers(questions: Mapping[str, Question], display: Display, report: Report) -> dict[str, dict[str, Measurement]]:
@@ -60,7 +62,7 @@ def answer(question: Question, display: Display) -> dict[str, Measurement]:
     small = min(comparison.height, comparison.width) < WINDOW
     usable = [name for name in question.names if name != "ssim" or not small]
     known = {option for name in usable for option in find_metric(name).options}
-    options = {"display": display if linear else clipped, "bound": question.bounds}
+    options = {"display": (question.display or display) if linear else clipped, "bound": question.bounds}
     found = measure_all(usable, comparison, **{name: value for name, value in options.items() if name in known})
     if not linear:  # a display value is a pure number
         found = {name: replace(m, unit="" if m.unit == RADIANCE else m.unit) for name, m in found.items()}

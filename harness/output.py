@@ -1,12 +1,13 @@
 """What `compare` leaves behind: report, results, heatmaps, layers; and what it prints."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from lightmeter.comparison import Outcome
-from lightmeter.measuring import clipped
+from lightmeter.measuring import Display, clipped
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
@@ -33,6 +34,9 @@ def pictures(outcome: Outcome) -> list[Pair]:
     for name, sides in outcome.lacking.items():
         meaning = f"Not approximated: everything else is exact. {TERMS[name].meaning.capitalize()}."
         pairs.append(_pair(name, (name,), sides, outcome, meaning))
+    for one in outcome.others.exhibits:
+        pair = _pair(one.name, one.terms, one.sides, outcome, one.caption, display=one.display)
+        pairs.append(replace(pair, mask=one.mask, labels=(one.engine, "truth")))
     return pairs
 
 
@@ -44,13 +48,19 @@ def _share_maps(outcome: Outcome, player: str) -> tuple[ErrorMap, ...]:
 
 
 def _pair(
-    name: str, terms: tuple[str, ...], sides: Sides, outcome: Outcome, caption: str, title: str | None = None
+    name: str,
+    terms: tuple[str, ...],
+    sides: Sides,
+    outcome: Outcome,
+    caption: str,
+    title: str | None = None,
+    display: Display | None = None,
 ) -> Pair:
     tested = np.mean(sides.tested, axis=0, dtype=np.float64).astype(np.float32)
     truth = np.mean(sides.truth, axis=0, dtype=np.float64).astype(np.float32)
     linear = sides.space == "scene-linear"
     unit = RADIANCE if linear else ""
-    display = outcome.display if linear else clipped
+    display = display or (outcome.display if linear else clipped)
     errors = (
         flip_error(ldr_flip(display(tested), display(truth))),
         rms_error(tested, truth, unit),

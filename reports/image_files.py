@@ -5,15 +5,15 @@ The kind of file is told by its first bytes, never by its name. Sizes are checke
 
 import os
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from lightmeter.reports import exr_header, png16, rgbe
+from lightmeter.reports import exr_header, exr_planes, png16, rgbe
 from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.native_messages import native_messages
 from lightmeter.reports.size_claims import MAX_PIXELS, check_content, check_size
 
 Encoding = Literal["auto", "srgb", "linear"]
@@ -59,6 +59,27 @@ def read_image(
             remedy="Convert it to OpenEXR",
         )
     return _decode_srgb(image) if (own if encoding == "auto" else encoding) == "srgb" else image
+
+
+def read_alpha(path: str | os.PathLike[str], max_pixels: int = MAX_PIXELS) -> npt.NDArray[np.float32] | None:
+    """The opacity of an image that `read_image` read, float32 (H, W), 0…1; None where the file has none.
+
+    Raises:
+        ImageError: as `read_image`.
+    """
+    target = Path(path)
+    head = _head(target)
+    if head.startswith(exr_header.MAGIC):
+        there = "A" in exr_planes.channel_names(target, max_pixels)
+        return exr_planes.read_planes(target, ("A",), max_pixels)[0] if there else None
+    if not head.startswith(_PNG) or png16.is_png16(head):
+        return None
+    from PIL import Image
+
+    with Image.open(target, formats=("PNG",)) as picture:
+        if "A" not in picture.getbands() and "transparency" not in picture.info:
+            return None
+        return np.asarray(picture.convert("RGBA"), np.float32)[..., 3] / np.float32(255)
 
 
 def write_exr(path: str | os.PathLike[str], image: npt.ArrayLike) -> Path:
@@ -109,33 +130,11 @@ def _head(path: Path) -> bytes:
 
 
 def _read_exr(path: Path, layer: str | None, max_pixels: int) -> npt.NDArray[np.float32]:
-    parts = exr_header.check_exr(path, max_pixels)
-    names = [name for part in parts for name in part.channels]
-    wanted = _wanted_channels(path, names, layer)
-    import OpenEXR
-
-    complaint = ""
-    with native_messages() as said:
-        try:
-            with OpenEXR.File(str(path), separate_channels=True) as file:
-                # A part whose pixels do not decode is left out of the list, with a line on standard error.
-                for part in file.parts:
-                    if wanted[0] in part.channels:
-                        planes = [np.asarray(part.channels[name].pixels, np.float32) for name in wanted]
-                        return np.ascontiguousarray(np.stack(planes, axis=2))
-        except (RuntimeError, ValueError, TypeError, KeyError, MemoryError) as error:
-            complaint = str(error)
-        complaint = complaint or said()
-    lines = [line.strip() for line in complaint.splitlines() if line.strip()]
-    raise ImageError(
-        "damaged or cut short",
-        where=path,
-        actual=lines[-1].removeprefix("Warning: ")[:200] if lines else "pixels that do not decode",
-        remedy="Write or copy the file again",
-    )
+    wanted = _wanted_channels(path, exr_planes.channel_names(path, max_pixels), layer)
+    return np.ascontiguousarray(np.stack(exr_planes.read_planes(path, wanted, max_pixels), axis=2))
 
 
-def _wanted_channels(path: Path, names: list[str], layer: str | None) -> tuple[str, str, str]:
+def _wanted_channels(path: Path, names: Sequence[str], layer: str | None) -> tuple[str, str, str]:
     """The three channels of the layer asked for, of the unnamed layer, or of the only layer there is."""
     layers = sorted(name[:-1].rstrip(".") for name in names if name == "R" or name.endswith(".R"))
     layers = [found for found in layers if all(_join(found, part) in names for part in "RGB")]

@@ -102,6 +102,7 @@ class Material:
         emissive: radiance leaving the front, W/(sr·m²) (KHR_materials_emissive_strength is folded in).
         alpha_mode: "opaque", or "mask": a point is there where alpha ≥ `alpha_cutoff`.
         double_sided: else the back is opaque and black (it absorbs) on both sides of the comparison.
+        left_out: extensions of its file that are not read and would change how it looks.
     """
 
     name: str = "material"
@@ -121,6 +122,7 @@ class Material:
     alpha_mode: Literal["opaque", "mask"] = "opaque"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
+    left_out: tuple[str, ...] = ()
 
     @property
     def textures(self) -> dict[str, Texture]:

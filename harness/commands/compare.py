@@ -4,6 +4,8 @@ import argparse
 from pathlib import Path
 
 from lightmeter import options
+from lightmeter.candidates import words
+from lightmeter.failures import USAGE_ERROR
 from lightmeter.progress import progress_bar
 
 
@@ -15,19 +17,21 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", help="where the report goes (default lightmeter-out/SCENE)")
     parser.add_argument("--reference", metavar="DIR", help="a reference that `lightmeter reference` wrote")
     parser.add_argument("--no-shares", action="store_true", help="do not share the frame's error out among the effects")
+    words.add_candidates(parser)
     options.add_store(parser)
     options.add_json(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Compare, write the report, print the table."""
-    size, budget, words = options.size(args.size), options.budget(args), options.words(args)
+    size, budget, chosen = options.size(args.size), options.budget(args), options.words(args)
+    candidates = words.candidates(args)
     from lightmeter.groundtruth.store import Store
     from lightmeter.realtime.graph import Choice
     from lightmeter.scenes.load import load
 
     scene = load(args.scene, args.camera)
-    choice = Choice(words.only, words.without, words.use, words.settings)
+    choice = Choice(chosen.only, chosen.without, chosen.use, chosen.settings)
     output = options.output_folder(args.output or f"lightmeter-out/{scene.name}")
 
     from lightmeter.comparison import compare
@@ -47,9 +51,14 @@ def run(args: argparse.Namespace) -> int:
             shares=not args.no_shares,
             report=report,
             say=options.say,
+            candidates=candidates,
+            candidates_folder=output / "candidates",
         )
         report("report", 0, 1)
         target = write_outcome(output, outcome)
         report("report", 1, 1)
     print_outcome(outcome, target, args.json)
-    return 0
+    failed = outcome.results.failed_candidates
+    for one in failed:
+        options.say(f"error: candidate {one.name!r}: {one.why}")
+    return USAGE_ERROR if failed else 0

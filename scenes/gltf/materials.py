@@ -1,6 +1,7 @@
 """Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
 
 from lightmeter.scenes.gltf import document
+from lightmeter.scenes.gltf.features import HARMLESS, READ
 from lightmeter.scenes.gltf.source import Source
 from lightmeter.scenes.gltf.textures import Textures
 from lightmeter.scenes.model import Material, Mesh
@@ -78,6 +79,7 @@ class Materials:
             alpha_mode="mask" if part.alpha_mode == "MASK" else "opaque",
             alpha_cutoff=part.alpha_cutoff,
             double_sided=part.double_sided,
+            left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
 
     def _specular(self, part: document.Material, place: str) -> float:

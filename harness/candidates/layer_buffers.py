@@ -1,0 +1,116 @@
+"""An engine's layers in the place of our effects' buffers, at the pixels' centres."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from lightmeter.candidates.failure import CandidateError
+from lightmeter.candidates.handed import Handed
+from lightmeter.candidates.layer_names import LAYERS
+from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.features import missing_terms
+from lightmeter.scenes.points import SurfacePoints
+from lightmeter.stacking import stack_points
+from lightmeter.truth import ExactBatch, Truth
+
+FAMILY = "frame"
+"""Whose random numbers: at centres that are the frame's own points its oracles serve."""
+
+
+@dataclass(frozen=True, eq=False)
+class Centres:
+    """The surface points that pixels' centres show, with the oracles there.
+
+    Attributes:
+        points: (1, H, W).
+    """
+
+    truth: Truth
+    points: SurfacePoints
+    forward: np.ndarray
+    eye: np.ndarray
+
+    @classmethod
+    def of(cls, renderer: Renderer, truth: Truth) -> "Centres":
+        """Of a renderer's scene and size."""
+        camera = truth.scene.camera
+        points = stack_points([renderer.capture((0.0, 0.0), terms=False).points])
+        return cls(truth, points, -camera.matrix[:3, 2], camera.position)
+
+    @cached_property
+    def exact(self) -> list[ExactBatch]:
+        """Every batch of every term, with the truth's own unfiltered textures."""
+        points = self.truth.exact_material(self.points)
+        spp = self.truth.reference.spp
+        family = FAMILY if points is self.points else "exact material"
+        return [self.truth.batch(points, batch, family, spp) for batch in range(self.truth.batches)]
+
+    @property
+    def depth(self) -> np.ndarray:
+        """(H, W) metres along the camera's forward axis."""
+        return (self.points.position[0].astype(np.float64) - self.eye) @ self.forward
+
+
+def check_layers(handed: Handed, truth: Truth) -> None:
+    """Every layer is of something that the scene has.
+
+    Raises:
+        CandidateError: a light's number is too large, or the scene has no such term.
+    """
+    missing, lights = missing_terms(truth.scene), len(truth.scene.all_lights)
+    for name, (layer, _) in handed.layers.items():
+        if layer.light is not None and layer.light >= lights:
+            raise CandidateError(
+                f"its layer {name} is of light {layer.light}, and {truth.scene.name} has {lights} "
+                f"({'numbered from 0' if lights else 'none'}); camera.json lists them"
+            )
+        term = LAYERS[layer.kind].term
+        if term in missing:
+            raise CandidateError(
+                f"its layer {name} gives {term}, which {truth.scene.name} does not have: {missing[term]}"
+            )
+
+
+def contributions(handed: Handed, name: str, exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
+    """A layer's part of the image and its oracle's, in radiance, (H, W, 3) each.
+
+    A visibility is weighted with the exact unshadowed radiance: where nothing arrives a wrong shadow costs nothing.
+    """
+    layer, values = handed.layers[name]
+    return _BY_KIND[layer.kind](values, layer.light, exact)
+
+
+def _at_centre(image: np.ndarray | None) -> np.ndarray:
+    assert image is not None, "check_layers has seen to it"
+    return image[0]
+
+
+_BY_KIND: Mapping[str, Callable[[np.ndarray, int | None, ExactBatch], tuple[np.ndarray, np.ndarray]]] = {
+    "direct": lambda v, _n, e: (v, np.sum([_at_centre(b) for b in e.direct.values()], axis=0)),
+    "direct.N": lambda v, n, e: (v, _at_centre(e.direct[n])),
+    "visibility.N": lambda v, n, e: (v * _at_centre(e.direct[n]), _at_centre(e.shadowed[n])),
+    "environment": lambda v, _n, e: (v, _at_centre(e.environment)),
+    "ambient_visibility": lambda v, _n, e: (v * _at_centre(e.environment), _at_centre(e.environment_shadowed)),
+    "indirect": lambda v, _n, e: (v, _at_centre(e.indirect)),
+}
+
+
+def is_term(name: str, handed: Handed) -> bool:
+    """Whether a layer is a term of the light transport, with an oracle."""
+    return handed.layers[name][0].kind in _BY_KIND
+
+
+def as_capture(handed: Handed, points: SurfacePoints) -> Capture:
+    """The layers as an effect's buffers would be: what has no layer is absent, and counts as not approximated."""
+    direct, visibility, frame = {}, {}, {}
+    for layer, values in handed.layers.values():
+        term = LAYERS[layer.kind].term
+        if layer.kind == "direct.N":
+            direct[layer.light] = values
+        elif layer.kind == "visibility.N":
+            visibility[layer.light] = values
+        elif term and layer.kind != "direct":
+            frame[term] = values
+    return Capture(points, direct, visibility, frame)
