@@ -1,14 +1,17 @@
 """A scene under certain conditions: what all limits on it share. Each part is made when it is first asked for."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
 
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.gathering import gather
+from lightmeter.candidates.judging import Judged, judge
 from lightmeter.conditions import Conditions
 from lightmeter.groundtruth.store import Store
 from lightmeter.limits import Limit
-from lightmeter.options import Budget
+from lightmeter.options import MIN_BATCHES, Budget
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.display import display_transform
 from lightmeter.realtime.graph import Choice, Plan
@@ -16,6 +19,9 @@ from lightmeter.realtime.renderer import Frame, Renderer
 from lightmeter.regions import Region
 from lightmeter.scenes.model import Scene
 from lightmeter.truth import Truth
+
+REGISTRATION_SPP = 8
+"""Samples per pixel of each batch that a candidate is registered with."""
 
 
 class Case:
@@ -25,6 +31,7 @@ class Case:
         name: the scene as the user names it, with what sets the conditions apart from `[defaults]`; unique.
         device: shared by all cases; called when the first of them draws.
         store: where batches are kept; None: nowhere.
+        candidates: the other renderers that limits may be on.
     """
 
     def __init__(
@@ -35,9 +42,12 @@ class Case:
         plan: Plan,
         device: Callable[[], Device],
         store: Store | None,
+        candidates: Sequence[Candidate] = (),
     ) -> None:
         self.name, self.scene, self.conditions, self.plan, self.store = name, scene, conditions, plan, store
+        self.candidates = {candidate.name: candidate for candidate in candidates}
         self._device = device
+        self._judged: dict[str, Judged] = {}
         self._masks: dict[Region, np.ndarray | None] = {}
 
     @cached_property
@@ -61,11 +71,24 @@ class Case:
         """The frame's display transform."""
         return display_transform(self.plan)
 
+    def judged(self, candidate: str) -> Judged:
+        """A candidate's frame, obtained and registered once.
+
+        Raises:
+            CandidateError: it gave none, or one that cannot be judged.
+        """
+        if candidate not in self._judged:
+            size, spp = self.conditions.size, REGISTRATION_SPP
+            handed = gather([self.candidates[candidate]], self.scene, size, self.display).handed
+            batches = [self.truth.reference_batch(number, spp) for number in range(MIN_BATCHES)]
+            self._judged[candidate] = judge(self.scene, self._seen, np.stack(batches), handed)[0]
+        return self._judged[candidate]
+
     @cached_property
     def _seen(self) -> np.ndarray:
         return self.renderer.capture(terms=False).points.shape
 
-    def mask(self, limit: Limit) -> np.ndarray | None:
+    def region(self, limit: Limit) -> np.ndarray | None:
         """(H, W) bool, where the limit's region is; None: everywhere.
 
         Raises:
@@ -76,6 +99,12 @@ class Case:
             seen = self._seen if region.words else np.empty((0, 0), int)
             self._masks[region] = region.mask(self.scene, seen, limit.place)
         return self._masks[region]
+
+    def mask(self, limit: Limit) -> np.ndarray | None:
+        """(H, W) bool: the limit's region, less what its candidate is not judged on; None: everywhere."""
+        region = self.region(limit)
+        own = None if limit.candidate is None else self.judged(limit.candidate).mask
+        return own if region is None else region if own is None else region & own
 
     def pixels(self, limit: Limit) -> int:
         """How many pixels the limit is on."""

@@ -14,7 +14,7 @@ def error_maps(trials: Sequence[Trial]) -> dict[tuple[str, str], ErrorMap]:
     """FLIP of everything whose limit saw an image, by (case, what)."""
     found = {}
     for trial in trials:
-        key = trial.case.name, trial.limit.of
+        key = trial.case.name, trial.limit.what
         sides = trial.sides
         if sides is None or key in found:
             continue

@@ -6,11 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from lightmeter.baseline import Baseline, regression_bound
+from lightmeter.candidates.failure import CandidateError
+from lightmeter.candidates.subject import CandidateSubject
 from lightmeter.cases import Case
 from lightmeter.device import device_digest
 from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
-from lightmeter.limits import FRAME, TIME_MS, Limit
+from lightmeter.limits import FRAME, MASKED, TIME_MS, Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
 from lightmeter.metrics.sequential import LEAST_COUNT, Bound, Look, error_per_look, look
@@ -21,6 +23,7 @@ from lightmeter.reports.verdict import Verdict
 from lightmeter.sides import Sides
 from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject
 from lightmeter.verdict import STATUS, bound_of, explain_verdict
+from lightmeter.verdict import judge as judge_point
 
 PRECISE = 0.25
 """A baseline is precise enough when its interval's half is no more than this part of the regression it serves."""
@@ -53,7 +56,7 @@ class Trial:
         """ "posts/shadow_map/rmse", with the region; what a baseline knows it by, too."""
         words = self.limit.region.words
         metric = f"{self.limit.metric} to {self.limit.to}" if self.limit.to else self.limit.metric
-        return f"{self.case.name}/{self.limit.of}/{metric}" + (f" {words}" if words else "")
+        return f"{self.case.name}/{self.limit.what}/{metric}" + (f" {words}" if words else "")
 
 
 @dataclass(eq=False)
@@ -82,7 +85,7 @@ def start_trials(
     trials = []
     for limit, case in pairs:
         if not limit.is_time:
-            case.pixels(limit)  # an empty region is said before time is spent
+            case.region(limit)  # an empty region is said before time is spent
         trial = Trial(limit, case, None, error_per_look(confidence, len(pairs), 1))
         if limit.regression is None:
             trial.bound = bound_of(limit)
@@ -122,6 +125,9 @@ def decide(
         seconds: for all of them together; None: until the samples are spent.
     """
     end = math.inf if seconds is None else clock() + seconds
+    for trial in trials:
+        if trial.limit.candidate is not None:
+            see_candidate(trial)
     works = _works(trials)
     for work in works:
         for trial in work.trials:
@@ -165,8 +171,10 @@ def _works(trials: Sequence[Trial]) -> list[Work]:
     """A subject for each thing that limits are on; the frame's and the display effects' share the reference."""
     works: dict[tuple[Case, str], Work] = {}
     for trial in trials:
-        case, of = trial.case, trial.limit.of
-        if trial.limit.is_time:
+        case, limit, of = trial.case, trial.limit, trial.limit.of
+        if (name := limit.candidate) is not None:
+            kind, make = limit.what, lambda case=case, name=name, of=of: CandidateSubject(case, name, of)
+        elif limit.is_time:
             kind, make = "times", lambda case=case: TimeSubject(case)
         elif of == FRAME or set(case.plan.effects[of][0].terms) & set(DISPLAY_TERMS):
             kind, make = FRAME, lambda case=case: FrameSubject(case)
@@ -216,6 +224,25 @@ def _refuse_broken(work: Work) -> None:
             trial.verdict = _verdict(trial, work, "FAIL", Measurement(math.nan, how=f"failed: {bad}"))
 
 
+def see_candidate(trial: Trial) -> None:
+    """Obtain and register a candidate's frame. Where it gave none that the limit can be on, the limit fails."""
+    limit, case = trial.limit, trial.case
+    try:
+        judged = case.judged(limit.candidate or "")
+        judged.check(limit.of, limit.metric, case.scene)
+    except CandidateError as error:
+        why = f"{limit.what} of {case.name} cannot be judged: {error}"
+        failed = Measurement(math.nan, how="failed")
+        trial.verdict = replace(_named(trial), status="FAIL", measurement=failed, message=why)
+        return
+    trial.rule = "; ".join(filter(None, (trial.rule, judged.words)))
+    if limit.metric == MASKED:
+        found = Measurement(judged.masked_fraction, how="counted")
+        status = judge_point(bound_of(limit), found)
+        message = explain_verdict(limit, found, status)
+        trial.verdict = replace(_bare(trial), status=status, measurement=found, message=message)
+
+
 def _refuse_device(trial: Trial) -> None:
     """A time in milliseconds says nothing on another device."""
     limit = trial.limit
@@ -224,10 +251,11 @@ def _refuse_device(trial: Trial) -> None:
     here = device_digest(this_device())
     if limit.device != here:
         reason = f"not judged: the limit was written for device {limit.device}, and this is {here}"
-        trial.verdict = replace(_bare(trial), message=f"time_ms of {limit.of}: {reason}", reason=reason)
+        trial.verdict = replace(_bare(trial), message=f"time_ms of {limit.what}: {reason}", reason=reason)
 
 
-def _bare(trial: Trial) -> Verdict:
+def _named(trial: Trial) -> Verdict:
+    """What can be said of a limit whose image is not there."""
     limit, case = trial.limit, trial.case
     return Verdict(
         name=trial.name,
@@ -235,13 +263,16 @@ def _bare(trial: Trial) -> Verdict:
         measurement=None,
         limit=limit.words,
         scene=case.name,
-        of=limit.of,
+        of=limit.what,
         metric=limit.metric,
         high=limit.high,
         low=limit.low,
         regression=limit.regression,
-        pixels=None if limit.is_time else case.pixels(limit),
     )
+
+
+def _bare(trial: Trial) -> Verdict:
+    return replace(_named(trial), pixels=None if trial.limit.is_time else trial.case.pixels(trial.limit))
 
 
 def _verdict(trial: Trial, work: Work, status, measurement: Measurement) -> Verdict:
@@ -266,7 +297,7 @@ def _undecided(trial: Trial, work: Work, seconds: float | None) -> Verdict:
     found = trial.last
     if found is None:
         reason = f"the time budget of {seconds:g} s ended before the first look; give more with --seconds"
-        return replace(_bare(trial), message=f"{trial.limit.metric} of {trial.limit.of}: {reason}", reason=reason)
+        return replace(_bare(trial), message=f"{trial.limit.metric} of {trial.limit.what}: {reason}", reason=reason)
     count = work.subject.count(trial.limit)
     if count < LEAST_COUNT:
         reason = (

@@ -28,6 +28,16 @@
     to = "frame"
     max = 0.6
 
+    [[candidate]]               # another renderer, see candidates/configured.py
+    name = "our engine"
+    command = "engine {gltf} {camera_json} {w} {h} {exr}"
+
+    [[limit]]
+    scene = "posts"
+    candidate = "our engine"
+    metric = "flip"
+    max = 0.2
+
 What a limit does not say, `[defaults]` says for it.
 """
 
@@ -53,6 +63,9 @@ FRAME = "frame"
 TIME_RATIO, TIME_MS = "time_ratio", "time_ms"
 TIMES = (TIME_RATIO, TIME_MS)
 """What can be limited beside the metrics of images."""
+
+MASKED = "masked"
+"""The fraction of pixels that a candidate is not judged on, 0…1."""
 
 DEFAULT_SPP = 1024
 BASELINE = "lightmeter.baseline.json"
@@ -118,6 +131,7 @@ class LimitEntry(Setting):
     regression: Annotated[float, Field(strict=True, gt=0, le=10, allow_inf_nan=False)] | None = None
     to: Name | None = None
     device: Name | None = None
+    candidate: Name | None = None
     region: RegionEntry | None = None
 
     @model_validator(mode="after")
@@ -151,13 +165,14 @@ class Limit:
     Attributes:
         place: where it is written, for messages.
         scene: the pattern or name as it is written.
-        of: "frame", or an effect's name.
-        metric: of the registry, or "time_ratio" or "time_ms".
+        of: "frame", or an effect's name; of a candidate, one of its layers.
+        metric: of the registry, or "time_ratio", "time_ms" or "masked".
         high, low, regression: the bound; exactly one of them is given. A regression is a fraction of the baseline.
         variant: what sets its conditions apart from `[defaults]`, in words.
         to: of a time ratio, what the time is divided by: "frame", or an effect's name.
         device: of a time, the digest of the device that it was written for.
         region: which pixels count.
+        candidate: whose frame it is on; None: ours.
     """
 
     place: str
@@ -172,6 +187,7 @@ class Limit:
     to: str | None = None
     device: str | None = None
     region: Region = EVERYWHERE
+    candidate: str | None = None
 
     @property
     def words(self) -> str:
@@ -182,6 +198,13 @@ class Limit:
         else:
             bound = f"<= {self.high:g}" if self.high is not None else f">= {self.low:g}"
         return " ".join(part for part in (what, bound, self.region.words) if part)
+
+    @property
+    def what(self) -> str:
+        """What it is on: "frame", "shadow_map", "our engine", "our engine visibility.0"."""
+        if self.candidate is None:
+            return self.of
+        return self.candidate if self.of == FRAME else f"{self.candidate} {self.of}"
 
     @property
     def is_time(self) -> bool:
@@ -197,12 +220,14 @@ class Rules:
         baseline: the file of stored values.
         seconds: for all verdicts together; None: no limit.
         confidence: that no verdict is wrong.
+        candidates: the renderers that limits may be on.
     """
 
     limits: tuple[Limit, ...]
     baseline: Path
     seconds: float | None
     confidence: float
+    candidates: tuple[Candidate, ...] = ()
 
 
 def read_rules(path: Path) -> Rules:
@@ -217,7 +242,8 @@ def read_rules(path: Path) -> Rules:
             f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max, min or regression"
         )
     limits = tuple(_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit))
-    return Rules(limits, path.parent / file.baseline, file.budget.seconds, file.budget.confidence)
+    candidates = tuple(entry.candidate(path.parent) for entry in file.candidate)
+    return Rules(limits, path.parent / file.baseline, file.budget.seconds, file.budget.confidence, candidates)
 
 
 def read_candidates(path: Path) -> tuple[Candidate, ...]:
@@ -245,6 +271,7 @@ def _limit(entry: LimitEntry, defaults: Setting, place: str) -> Limit:
         entry.to,
         entry.device,
         entry.region.region if entry.region else EVERYWHERE,
+        entry.candidate,
     )
 
 

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.layer_names import LAYERS, find_layers
 from lightmeter.cases import Case, choice_of
 from lightmeter.conditions import Conditions
 from lightmeter.device import Fingerprint, device_digest, fingerprint
@@ -11,7 +13,7 @@ from lightmeter.failures import UsageError, user_failures
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
 from lightmeter.limit_scenes import find_scenes, same_scene
-from lightmeter.limits import FRAME, TIME_RATIO, TIMES, Limit
+from lightmeter.limits import FRAME, MASKED, TIME_RATIO, TIMES, Limit
 from lightmeter.metrics.input_error import InputError
 from lightmeter.metrics.registry import METRICS, find_metric
 from lightmeter.realtime.device import Device
@@ -22,13 +24,18 @@ from lightmeter.scenes.model import Scene
 
 
 def plan_cases(
-    limits: Sequence[Limit], file: Path, asked: Sequence[str] = (), store: Store | None = None
+    limits: Sequence[Limit],
+    file: Path,
+    asked: Sequence[str] = (),
+    store: Store | None = None,
+    candidates: Sequence[Candidate] = (),
 ) -> list[tuple[Limit, Case]]:
     """Every limit with the case it is on. Everything is checked here, before anything is rendered.
 
     Args:
         file: the limits file.
         asked: names or paths of scenes; empty: all that the limits name.
+        candidates: the other renderers that limits may be on.
 
     Returns:
         A list of (limit, case); limits under the same conditions share a case.
@@ -51,13 +58,13 @@ def plan_cases(
         if source in chosen:
             key = source, limit.conditions
             if key not in cases:
-                cases[key] = make_case(source, limit, store)
+                cases[key] = make_case(source, limit, store, candidates)
             check_target(limit, cases[key])
             pairs.append((limit, cases[key]))
     return pairs
 
 
-def make_case(source: str | Scene, limit: Limit, store: Store | None) -> Case:
+def make_case(source: str | Scene, limit: Limit, store: Store | None, candidates: Sequence[Candidate] = ()) -> Case:
     """The case of a limit on a scene.
 
     Raises:
@@ -70,7 +77,8 @@ def make_case(source: str | Scene, limit: Limit, store: Store | None) -> Case:
     except user_failures() as error:
         raise UsageError(f"{limit.place}: {error}") from None
     name = scene.name if isinstance(source, Scene) else source
-    return Case(f"{name} [{limit.variant}]" if limit.variant else name, scene, conditions, plan, shared_device, store)
+    name = f"{name} [{limit.variant}]" if limit.variant else name
+    return Case(name, scene, conditions, plan, shared_device, store, candidates)
 
 
 @cache
@@ -95,6 +103,9 @@ def check_metric(limit: Limit) -> None:
     if limit.is_time:
         _check_time(limit)
         return
+    if limit.metric == MASKED:
+        _check_masked(limit)
+        return
     for key in ("to", "device"):
         if getattr(limit, key) is not None:
             raise UsageError(f"{limit.place}.{key}: it is for {' and '.join(TIMES)}, and the metric is {limit.metric}")
@@ -112,7 +123,18 @@ def check_metric(limit: Limit) -> None:
         raise UsageError(f"{limit.place}: {metric.name} is judged by its magnitude: expected max of 0 or more")
 
 
+def _check_masked(limit: Limit) -> None:
+    if limit.candidate is None:
+        raise UsageError(f"{limit.place}: {MASKED} is of a candidate: expected candidate = NAME")
+    if limit.high is None or limit.region.words or limit.of != FRAME:
+        raise UsageError(f"{limit.place}: {MASKED} is a fraction of the whole frame: expected max alone, 0 to 1")
+
+
 def _check_time(limit: Limit) -> None:
+    if limit.candidate is not None:
+        raise UsageError(
+            f"{limit.place}.candidate: times of other renderers are reported by `compare`, and not limited here"
+        )
     if limit.region.words:
         raise UsageError(f"{limit.place}.region: a time has no region")
     if limit.regression is not None:
@@ -142,10 +164,23 @@ def check_target(limit: Limit, case: Case) -> None:
     Raises:
         UsageError: it does not, or is not.
     """
-    _check_effect(limit, limit.of, "of", case)
+    if limit.candidate is not None:
+        _check_candidate(limit, case)
+    else:
+        _check_effect(limit, limit.of, "of", case)
     if limit.metric == TIME_RATIO:
         _check_effect(limit, limit.to or FRAME, "to", case)
     limit.region.check(case.scene, limit.place)
+
+
+def _check_candidate(limit: Limit, case: Case) -> None:
+    if limit.candidate not in case.candidates:
+        hint = nearest(str(limit.candidate), case.candidates)
+        raise UsageError(f"{limit.place}.candidate: there is no candidate {limit.candidate!r}; {hint}")
+    layers, others = find_layers([limit.of])
+    if limit.of != FRAME and (others or not LAYERS[layers[0].kind].term):
+        known = [FRAME, *(name for name, layer in LAYERS.items() if layer.term)]
+        raise UsageError(f"{limit.place}.of: a candidate has no {limit.of!r} to judge; {nearest(limit.of, known)}")
 
 
 def _check_effect(limit: Limit, name: str, key: str, case: Case) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from lightmeter.cases import Case
 from lightmeter.limits import FRAME, TIME_RATIO, Limit
-from lightmeter.measuring import Question, answer, clipped
+from lightmeter.measuring import Display, Question, answer, clipped
 from lightmeter.metrics.finite import NonFinite, find_non_finite
 from lightmeter.metrics.interval import mean_interval
 from lightmeter.metrics.measurement import Measurement
@@ -99,6 +99,10 @@ class ImageSubject:
         """What is compared, with what has been drawn so far."""
         raise NotImplementedError
 
+    def display(self, limit: Limit) -> Display:
+        """What shows both sides."""
+        return self.case.display
+
     def means(self, limit: Limit) -> Sides:
         """What is compared, each side as one image: for a picture."""
         sides = self.sides(limit)
@@ -114,7 +118,7 @@ class ImageSubject:
     def measure(self, limit: Limit, confidence: float) -> Measurement:
         """By the metric's own interval."""
         question = Question((limit.metric,), self.sides(limit), True, self.case.mask(limit), confidence)
-        return answer(question, self.case.display).get(limit.metric) or Measurement(
+        return answer(question, self.display(limit)).get(limit.metric) or Measurement(
             np.nan, how=f"failed: the image is too small for {limit.metric}"
         )
 
@@ -122,7 +126,7 @@ class ImageSubject:
         """Of the squared error's contributions, of the displayed mean's, or of the mean's."""
         sides, mask = self.sides(limit), self.case.mask(limit)
         if find_metric(limit.metric).domain == "display":
-            display = self.case.display if sides.space == "scene-linear" else clipped
+            display = self.display(limit) if sides.space == "scene-linear" else clipped
             return effective_count(linear_contributions(_influences(sides.truth, display, mask)))
         tested = sides.tested if len(sides.tested) > 1 else sides.tested * len(sides.truth)
         differences = [_inside(t - r, mask) for t, r in zip(tested, sides.truth, strict=True)]
@@ -158,7 +162,7 @@ class FrameSubject(ImageSubject):
         def value(image: np.ndarray) -> Measurement:
             sides = display_sides(self.case.plan, [image])[limit.of]
             question = Question((limit.metric,), sides, mask=self.case.mask(limit), confidence=confidence)
-            return answer(question, self.case.display)[limit.metric]
+            return answer(question, self.display(limit))[limit.metric]
 
         found, k = value(whole), len(without)
         left_out = np.array([value(image).value for image in without])
@@ -171,7 +175,7 @@ class FrameSubject(ImageSubject):
         if limit.of == FRAME:
             return super().count(limit)
         return effective_count(
-            linear_contributions(_influences(self.groups.images, self.case.display, self.case.mask(limit)))
+            linear_contributions(_influences(self.groups.images, self.display(limit), self.case.mask(limit)))
         )
 
 

@@ -3,6 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.gathering import gather
+from lightmeter.candidates.judging import judge
 from lightmeter.convergence import convergence
 from lightmeter.device import fingerprint
 from lightmeter.failures import UsageError
@@ -47,6 +50,7 @@ class Sweeping:
         truth: reference and oracles.
         curve_seconds: what the path tracer's curve may take.
         report: told of progress.
+        candidates: other renderers, whose frames stand beside the settings.
     """
 
     def __init__(
@@ -56,6 +60,7 @@ class Sweeping:
         truth: Truth,
         curve_seconds: float,
         report: Report = silent,
+        candidates: Sequence[Candidate] = (),
     ) -> None:
         self._curve_seconds = curve_seconds
         self._choice, self._truth, self._report = choice, truth, report
@@ -66,10 +71,15 @@ class Sweeping:
         self._wanted = [(name, visit) for name, listed in wanted.items() for visit in listed]
         self._measured: dict[str, list[Measured]] = {name: [] for name in wanted}
         self._curve: list[found.CurvePoint] = []
+        self._candidates = candidates
+        self._others: tuple[found.Other, ...] = ()
+        self._of_others: tuple[str, ...] = ()
         self._complete = False
 
     def run(self) -> None:
         """Measure everything: errors with the first round of times, the other rounds, the path tracer."""
+        if self._candidates:
+            self._see_others()
         for done, (name, visit) in enumerate(self._wanted):
             self._report("settings", done, len(self._wanted))
             self._measured[name].append(self._measure(name, visit))
@@ -87,6 +97,20 @@ class Sweeping:
         for point in convergence(self._truth, self._display, self._goal(), self._curve_seconds, self._report):
             self._curve.append(point)
         self._complete = True
+
+    def _see_others(self) -> None:
+        """The candidates' frames, measured as the settings' are."""
+        scene, size, batches = self._truth.scene, self._truth.size, self._truth.reference.batches
+        gathered = gather(self._candidates, scene, size, self._display, report=self._report)
+        shapes = self._renderer(self._plan).capture(terms=False).points.shape
+        judged = judge(scene, shapes, batches, gathered.handed)
+        measured = answers({one.name: one.question(found.METRICS, batches) for one in judged}, self._display, silent)
+        results = [one.result(measured[one.name]) for one in judged]
+        self._others = tuple(
+            found.Other(one.name, one.time_ms, one.time_how, one.time_whole, one.metrics, one.pixels) for one in results
+        )
+        self._of_others = tuple(f"{one.name} gave no frame: {one.why}" for one in gathered.failed)
+        self._of_others += tuple(f"{one.name}: {one.words}." for one in judged if one.words)
 
     @property
     def begun(self) -> bool:
@@ -111,8 +135,9 @@ class Sweeping:
             ),
             effects=tuple(found.ranked(effect, self._curve) for effect in swept),
             path_tracer=tuple(self._curve),
-            notes=(*self._truth.scene.notes, *self._notes(times)),
+            notes=(*self._truth.scene.notes, *self._notes(times), *self._of_others),
             complete=self._complete,
+            others=self._others,
         )
 
     def _renderer(self, plan: Plan) -> Renderer:

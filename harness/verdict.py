@@ -4,7 +4,7 @@ import math
 
 from lightmeter.limits import Limit
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.metrics.registry import find_metric
+from lightmeter.metrics.registry import METRICS, find_metric
 from lightmeter.metrics.sequential import Bound, Side
 from lightmeter.reports.significant import show_number
 from lightmeter.reports.verdict import Status
@@ -15,7 +15,7 @@ STATUS: dict[Side, Status] = {"within": "PASS", "beyond": "FAIL", "open": "UNDEC
 
 def bound_of(limit: Limit) -> Bound:
     """The bound of a limit that names it. Of a signed metric (bias) the magnitude is judged."""
-    signed = not limit.is_time and find_metric(limit.metric).signed
+    signed = limit.metric in METRICS and find_metric(limit.metric).signed
     number = limit.high if limit.high is not None else limit.low
     assert number is not None, "a regression's bound is the baseline's"
     return Bound(number, number, limit.high is not None, signed)
@@ -47,4 +47,4 @@ def explain_verdict(limit: Limit, measurement: Measurement, status: Status) -> s
     shown = show_number(measurement.value, 5)
     if measurement.low is not None and measurement.high is not None:
         shown += f" ({show_number(measurement.low, 5)} … {show_number(measurement.high, 5)})"
-    return f"{limit.metric} of {limit.of} = {shown} {reason} the limit {limit.words}"
+    return f"{limit.metric} of {limit.what} = {shown} {reason} the limit {limit.words}"

@@ -8,7 +8,7 @@ from typing import Any
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.significant import show_measurement, show_number
-from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Setting, SweptEffect, curve_of, show_knob
+from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
 from lightmeter.reports.sweep_table import crossing_clause, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
@@ -20,18 +20,23 @@ INK = "ink"
 """Stands for the page's text colour, dark or light."""
 
 
-def figure(swept: SweptEffect, curve: Sequence[CurvePoint], view: str, metric: str) -> dict[str, Any]:
-    """One plot, as JSON for plotly: settings, their front, the path tracer's curve and the crossovers."""
+def figure(
+    swept: SweptEffect, curve: Sequence[CurvePoint], view: str, metric: str, others: Sequence[Other] = ()
+) -> dict[str, Any]:
+    """One plot, as JSON for plotly: settings, their front, the path tracer's curve, the crossovers, other renderers."""
     listed = [s for s in swept.settings if math.isfinite(s.standing(view).metrics[metric].value)]
     comparable = view == "frame" or swept.comparable
     points = list(curve) if comparable else []
-    values = [s.standing(view).metrics[metric].value for s in listed] + [p.metrics[metric].value for p in points]
+    shown = [o for o in others if view == "frame" and o.time_ms and _finite(o.metrics.get(metric))]
+    values = [s.standing(view).metrics[metric].value for s in listed]
+    values += [p.metrics[metric].value for p in [*points, *shown]]
     floor = 0.5 * min((v for v in values if v > 0), default=1.0)
     lines = {name: [s for s in members if s in listed] for name, members in groups(swept.settings).items()}
     traces = _settings(lines, view, metric, floor)
     traces += [_front(listed, view, metric, floor), _current(listed, view, metric, floor)]
     if points:
         traces += [_curve(points, metric, floor), *_crossovers(listed, view, metric, floor)]
+    traces += [_other(other, metric, floor) for other in shown]
     unit = next((s.standing(view).metrics[metric].unit for s in listed), "")
     of = swept.effect if view == "effect" else "the frame"
     time = swept.own_time if view == "effect" else "the frame"
@@ -158,6 +163,32 @@ def _curve(points: Sequence[CurvePoint], metric: str, floor: float) -> dict[str,
     }
 
 
+def _finite(measured: Measurement | None) -> bool:
+    return measured is not None and math.isfinite(measured.value)
+
+
+def _other(other: Other, metric: str, floor: float) -> dict[str, Any]:
+    """Another renderer; hollow where its time holds its start-up."""
+    measured, time = other.metrics[metric], other.time_ms
+    assert time is not None, "without a time it has no place in the plot"
+    return {
+        "name": escape(other.name),
+        "mode": "markers+text",
+        "x": [time.median],
+        "y": [max(measured.value, floor)],
+        "error_x": _bar([time.mad], [time.mad], INK),
+        "error_y": _interval([measured], floor, INK),
+        "marker": {"color": INK, "size": 11, "symbol": "hexagon-open" if other.time_whole else "hexagon"},
+        "text": [escape(other.name)],
+        "textposition": "top center",
+        "hovertext": [
+            f"<b>{escape(other.name)}</b><br>{label(metric)} {escape(show_measurement(measured))}"
+            f"<br>{show_time(time)} ms, {escape(other.time_how)}<br>over {other.pixels} pixels"
+        ],
+        "hoverinfo": "text",
+    }
+
+
 def _crossovers(listed: Sequence[Setting], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
     """From each setting of the front to where the path tracer is as good; nothing where the curve does not say."""
     marks, lines = [], []
@@ -211,6 +242,8 @@ def _bar(plus: Sequence[float], minus: Sequence[float], colour: str) -> dict[str
     }
 
 
-def figures(swept: SweptEffect, curve: Sequence[CurvePoint], metrics: Sequence[str]) -> Mapping[str, Any]:
+def figures(
+    swept: SweptEffect, curve: Sequence[CurvePoint], metrics: Sequence[str], others: Sequence[Other] = ()
+) -> Mapping[str, Any]:
     """View to metric to figure."""
-    return {view: {metric: figure(swept, curve, view, metric) for metric in metrics} for view in VIEWS}
+    return {view: {metric: figure(swept, curve, view, metric, others) for metric in metrics} for view in VIEWS}

@@ -41,7 +41,7 @@ def render_sweep(sweep: Sweep) -> str:
         autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     scripts = [get_plotlyjs(), _asset("sweep.js")]
-    plots = [figures(swept, sweep.path_tracer, METRICS) for swept in sweep.effects]
+    plots = [figures(swept, sweep.path_tracer, METRICS, sweep.others) for swept in sweep.effects]
     return environment.from_string(_asset("sweep.html")).render(
         scene=sweep.scene,
         subtitle=_subtitle(sweep),

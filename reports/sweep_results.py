@@ -93,11 +93,32 @@ class CurvePoint:
 
 
 @dataclass(frozen=True)
+class Other:
+    """Another renderer's frame, beside which the settings stand.
+
+    Attributes:
+        time_ms: None where nothing is known.
+        time_how: who measured it.
+        time_whole: whether start-up and loading are within.
+        metrics: those of `METRICS` that speak of it: of a display image no radiance.
+        pixels: over how many.
+    """
+
+    name: str
+    time_ms: Timing | None
+    time_how: str
+    time_whole: bool
+    metrics: Metrics
+    pixels: int
+
+
+@dataclass(frozen=True)
 class Sweep:
     """Everything that a sweep found. `size` is (width, height) in pixels.
 
     Attributes:
         complete: whether it ran to its end; an interrupted one holds what was done.
+        others: candidates.
     """
 
     schema: int
@@ -109,6 +130,7 @@ class Sweep:
     path_tracer: tuple[CurvePoint, ...]
     notes: tuple[str, ...] = ()
     complete: bool = True
+    others: tuple[Other, ...] = ()
 
 
 def show_knob(value: Any) -> str:
@@ -178,17 +200,23 @@ def _rows(sweep: Sweep) -> Iterator[dict[str, Any]]:
             knobs = {name: show_knob(setting.knobs[name]) if name in setting.knobs else "" for name in names}
             row = {"what": swept.effect, "spp": "", **knobs, "current": int(setting.current)}
             for view in VIEWS:
-                row |= _cells(view, setting.standing(view))
+                standing = setting.standing(view)
+                row |= _cells(view, standing.time_ms, standing.metrics, standing)
             yield row
     for point in sweep.path_tracer:
-        yield {"what": "path tracer", "spp": point.spp} | _cells("frame", Standing(point.time_ms, point.metrics))
+        yield {"what": "path tracer", "spp": point.spp} | _cells("frame", point.time_ms, point.metrics)
+    for other in sweep.others:
+        yield {"what": other.name, "spp": ""} | _cells("frame", other.time_ms, other.metrics)
 
 
-def _cells(view: str, standing: Standing) -> dict[str, Any]:
-    time = standing.time_ms
-    cells = {f"{view}_ms": time.median, f"{view}_ms_mad": time.mad, f"{view}_ms_frames": time.frames}
-    for name, m in standing.metrics.items():
+def _cells(view: str, time: Timing | None, metrics: Metrics, standing: Standing | None = None) -> dict[str, Any]:
+    cells: dict[str, Any] = {}
+    if time is not None:
+        cells |= {f"{view}_ms": time.median, f"{view}_ms_mad": time.mad, f"{view}_ms_frames": time.frames}
+    for name, m in metrics.items():
         cells |= {f"{view}_{name}": m.value, f"{view}_{name}_low": m.low, f"{view}_{name}_high": m.high}
+        if standing is None:
+            continue
         cells[f"{view}_{name}_front"] = int(standing.front[name]) if name in standing.front else None
         crossed = standing.path_tracer.get(name)
         cells[f"{view}_{name}_path_tracer_ms"] = crossed.ms if crossed else None

@@ -29,6 +29,8 @@ def sweep_tables(sweep: Sweep) -> Group:
             parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
     if sweep.path_tracer:
         parts.append(_curve(sweep))
+    if sweep.others:
+        parts.append(_others(sweep))
     parts += [Text.assemble(("note: ", "dim"), note) for note in sweep.notes]
     return Group(*parts)
 
@@ -114,4 +116,21 @@ def _curve(sweep: Sweep) -> Table:
     for point in sweep.path_tracer:
         values = (show_value(point.metrics[metric]) for metric in METRICS)
         table.add_row(str(point.spp), *values, show_time(point.time_ms))
+    return table
+
+
+def _others(sweep: Sweep) -> Table:
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title="Other renderers", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table.add_column("renderer")
+    for column in (*(label(metric) for metric in METRICS), "ms"):
+        table.add_column(column, justify="right", no_wrap=True)
+    table.add_column("time", style="dim")
+    for other in sweep.others:
+        values = [_bare(other.metrics[metric]) if metric in other.metrics else "–" for metric in METRICS]
+        time = show_time(other.time_ms) if other.time_ms else "–"
+        table.add_row(*map(Text, (other.name, *values, time, other.time_how)))
     return table

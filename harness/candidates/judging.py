@@ -5,12 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.gathering import OWN
 from lightmeter.candidates.handed import Handed
+from lightmeter.candidates.layer_buffers import check_layers
 from lightmeter.candidates.layer_names import LAYERS
 from lightmeter.candidates.masking import left_out
 from lightmeter.candidates.registering import register
 from lightmeter.failures import UsageError
+from lightmeter.hints import nearest
+from lightmeter.limits import FRAME
 from lightmeter.measuring import Question
 from lightmeter.metrics.finite import find_non_finite
 from lightmeter.metrics.measurement import Measurement
@@ -45,6 +49,34 @@ class Judged:
     def term_of(self, layer: str) -> str:
         """The term that one of its layers approximates."""
         return LAYERS[self.handed.layers[layer][0].kind].term
+
+    @property
+    def masked_fraction(self) -> float:
+        """How much of the image is not judged, 0…1."""
+        return 0.0 if self.mask is None else 1.0 - float(self.mask.mean())
+
+    @property
+    def words(self) -> str:
+        """What registration found, and whether it was corrected; "" where there is nothing to say."""
+        return "; ".join(
+            f"{one.words} ({'corrected as asked' if one.corrected else 'not corrected'})" for one in self.findings
+        )
+
+    def check(self, of: str, metric: str, scene: Scene) -> None:
+        """That a limit can be on it.
+
+        Raises:
+            CandidateError: it lacks the layer, or a display image is asked for radiance.
+        """
+        if of != FRAME:
+            check_layers(self.handed, scene)
+            if of not in self.handed.layers:
+                raise CandidateError(f"it handed in no layer {of!r}; {nearest(of, self.handed.layers)}")
+        elif self.handed.display is not None and metric in METRICS and METRICS[metric].domain != "display":
+            raise CandidateError(
+                f"{metric} speaks of radiance, and it handed in a display image ({self.handed.transfer}); hand in a "
+                "scene-linear one, or limit flip or ssim"
+            )
 
     def question(self, names: Sequence[str], reference: Sequence[np.ndarray]) -> Question:
         """Those of the metrics that speak of its image; of a display image the display metrics."""

@@ -1,6 +1,6 @@
 """An engine's layers in the place of our effects' buffers, at the pixels' centres."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,12 +11,11 @@ from lightmeter.candidates.handed import Handed
 from lightmeter.candidates.layer_names import LAYERS
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.features import missing_terms
+from lightmeter.scenes.model import Scene
 from lightmeter.scenes.points import SurfacePoints
+from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import stack_points
 from lightmeter.truth import ExactBatch, Truth
-
-FAMILY = "frame"
-"""Whose random numbers: at centres that are the frame's own points its oracles serve."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,12 +39,21 @@ class Centres:
         return cls(truth, points, -camera.matrix[:3, 2], camera.position)
 
     @cached_property
+    def exact_points(self) -> SurfacePoints:
+        """The points with the truth's own unfiltered textures."""
+        return self.truth.exact_material(self.points)
+
+    @cached_property
     def exact(self) -> list[ExactBatch]:
-        """Every batch of every term, with the truth's own unfiltered textures."""
-        points = self.truth.exact_material(self.points)
+        """Every batch of every term."""
         spp = self.truth.reference.spp
-        family = FAMILY if points is self.points else "exact material"
-        return [self.truth.batch(points, batch, family, spp) for batch in range(self.truth.batches)]
+        return [self.batch(number, spp) for number in range(self.truth.batches)]
+
+    def batch(self, number: int, spp: int, terms: Collection[str] = tuple(TERMS)) -> ExactBatch:
+        """One batch of some terms."""
+        points = self.exact_points
+        family = "frame" if points is self.points else "exact material"
+        return self.truth.batch(points, number, family, spp, terms=terms)
 
     @property
     def depth(self) -> np.ndarray:
@@ -53,24 +61,22 @@ class Centres:
         return (self.points.position[0].astype(np.float64) - self.eye) @ self.forward
 
 
-def check_layers(handed: Handed, truth: Truth) -> None:
+def check_layers(handed: Handed, scene: Scene) -> None:
     """Every layer is of something that the scene has.
 
     Raises:
         CandidateError: a light's number is too large, or the scene has no such term.
     """
-    missing, lights = missing_terms(truth.scene), len(truth.scene.all_lights)
+    missing, lights = missing_terms(scene), len(scene.all_lights)
     for name, (layer, _) in handed.layers.items():
         if layer.light is not None and layer.light >= lights:
             raise CandidateError(
-                f"its layer {name} is of light {layer.light}, and {truth.scene.name} has {lights} "
+                f"its layer {name} is of light {layer.light}, and {scene.name} has {lights} "
                 f"({'numbered from 0' if lights else 'none'}); camera.json lists them"
             )
         term = LAYERS[layer.kind].term
         if term in missing:
-            raise CandidateError(
-                f"its layer {name} gives {term}, which {truth.scene.name} does not have: {missing[term]}"
-            )
+            raise CandidateError(f"its layer {name} gives {term}, which {scene.name} does not have: {missing[term]}")
 
 
 def contributions(handed: Handed, name: str, exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:

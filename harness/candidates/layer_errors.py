@@ -20,7 +20,7 @@ def layer_sides(judged: Judged, centres: Centres) -> Iterator[tuple[str, Sides]]
     Raises:
         CandidateError: a layer is of something that the scene does not have.
     """
-    check_layers(judged.handed, centres.truth)
+    check_layers(judged.handed, centres.truth.scene)
     for name in judged.handed.layers:
         if is_term(name, judged.handed):
             both = [contributions(judged.handed, name, exact) for exact in centres.exact]

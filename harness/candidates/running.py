@@ -65,7 +65,8 @@ def run(words: Sequence[str], timeout: float, environment: Mapping[str, str], lo
         code = process.wait(timeout)
     except subprocess.TimeoutExpired:
         raise CandidateError(
-            f"it did not end within {timeout:g} s{_last(tail.text())}; give more with a timeout"
+            f"it did not end within {timeout:g} s{_last(tail.text())}; give it longer with --timeout, or with timeout "
+            "in lightmeter.toml"
         ) from None
     finally:
         _end(process)

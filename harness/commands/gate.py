@@ -4,9 +4,12 @@ import argparse
 import json
 import re
 import time
+from dataclasses import replace
+from math import isnan
 from pathlib import Path
 
 from lightmeter import options
+from lightmeter.candidates import words
 from lightmeter.failures import UsageError
 from lightmeter.progress import progress_bar
 
@@ -28,6 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--markdown", metavar="FILE", help="write them for a pull request, heatmaps beside it")
     parser.add_argument("--json-file", metavar="FILE", help="write them as JSON")
     parser.add_argument("-o", "--output", metavar="DIR", help="write every comparison's full report there (slow)")
+    words.add_candidates(parser)
     options.add_store(parser)
     options.add_json(parser)
 
@@ -50,7 +54,9 @@ def run(args: argparse.Namespace) -> int:
     rules = read_rules(config)
     confidence = rules.confidence if args.confidence is None else args.confidence
     seconds = rules.seconds if args.seconds is None else args.seconds
-    pairs = plan_cases(rules.limits, config, args.scenes, None if args.no_store else Store(say=options.say))
+    limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
+    store = None if args.no_store else Store(say=options.say)
+    pairs = plan_cases(limits, config, args.scenes, store, candidates)
     if args.update:
         return _update(pairs, rules.baseline, confidence, seconds)
     start = time.perf_counter()
@@ -66,10 +72,31 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps(document, indent=2, ensure_ascii=False))
     else:
         _print_verdicts(verdicts, document)
+    for verdict in verdicts:
+        if verdict.status == "FAIL" and verdict.measurement is not None and isnan(verdict.measurement.value):
+            options.say(verdict.message)  # there is no number that would explain it
     undecided = document["undecided"]
     if undecided:
         options.say(f"{undecided} of {len(verdicts)} limits undecided: {_first_reason(verdicts)}")
     return code
+
+
+def _on_candidates(rules, asked):
+    """The limits and the candidates they may be on: where the command line names any, its frames stand in for ours."""
+    known = {candidate.name: candidate for candidate in (*rules.candidates, *asked)}
+    if not asked:
+        return rules.limits, tuple(known.values())
+    from lightmeter.limits import FRAME
+
+    names = [candidate.name for candidate in asked]
+    ours = [limit for limit in rules.limits if limit.candidate is None and limit.of == FRAME and not limit.is_time]
+    limits = [replace(limit, candidate=name) for name in names for limit in ours]
+    limits += [limit for limit in rules.limits if limit.candidate in names]
+    if dropped := sum(limit.candidate not in names and limit not in ours for limit in rules.limits):
+        options.say(f"{dropped} limits that are not on a frame of {', '.join(names)} are left out")
+    if not limits:
+        raise UsageError(f"{rules.limits[0].place}: none of the limits is on a frame, which is what a candidate has")
+    return tuple(limits), tuple(known.values())
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

@@ -6,6 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from lightmeter import options
+from lightmeter.candidates import words
 from lightmeter.failures import UsageError
 from lightmeter.progress import progress_bar
 
@@ -32,6 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     options.add_budget(parser)
     options.add_choice(parser)
+    words.add_candidates(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where it goes (default lightmeter-out/SCENE-sweep)")
     options.add_store(parser)
     options.add_json(parser)
@@ -39,7 +41,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Measure, write the page, print the tables."""
-    size, budget, words = options.size(args.size), options.budget(args), options.words(args)
+    size, budget, chosen = options.size(args.size), options.budget(args), options.words(args)
+    candidates = words.candidates(args)
     if bool(args.effect) == args.all:
         raise UsageError("sweep: name one EFFECT, or give --all")
     if not 0 <= args.curve <= 1e6:
@@ -51,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     from lightmeter.sweeping import Sweeping, plan_visits
 
     scene = load(args.scene, args.camera)
-    choice = Choice(words.only, words.without, words.use, words.settings)
+    choice = Choice(chosen.only, chosen.without, chosen.use, chosen.settings)
     wanted = plan_visits(scene, choice, args.effect, args.knob)
     folder = options.output_folder(args.output or f"lightmeter-out/{scene.name}-sweep")
 
@@ -63,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
         # Settings share oracles: without the store they are kept for this run.
         store = Store(Path(scratch)) if args.no_store else Store(say=options.say)
         truth = Truth(scene, size, budget, args.seed, store=store, report=report, say=options.say)
-        sweeping = Sweeping(wanted, choice, truth, args.curve, report)
+        sweeping = Sweeping(wanted, choice, truth, args.curve, report, candidates)
         try:
             sweeping.run()
         except KeyboardInterrupt:
