@@ -229,7 +229,7 @@ def see_candidate(trial: Trial) -> None:
     limit, case = trial.limit, trial.case
     try:
         judged = case.judged(limit.candidate or "")
-        judged.check(limit.of, limit.metric, case.scene)
+        judged.check(limit.of, limit.metric)
     except CandidateError as error:
         why = f"{limit.what} of {case.name} cannot be judged: {error}"
         failed = Measurement(math.nan, how="failed")

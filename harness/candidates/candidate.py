@@ -15,6 +15,9 @@ assert set(TRANSFERS) == set(get_args(Transfer))
 DEFAULT_TIMEOUT = 600.0
 """Seconds; a software rasteriser may take a minute to compile its shaders."""
 
+OWN, FRAME = "lightmeter", "frame"
+"""The names of our own renderer and of its frame's pictures, which no candidate can have."""
+
 FAULTS = ("flip", "shift", "field_of_view", "transfer", "exposure", "alpha", "background")
 """What registration looks for, and can be asked to correct."""
 

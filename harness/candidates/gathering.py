@@ -7,8 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.candidate import FRAME, OWN, Candidate
 from lightmeter.candidates.failure import CandidateError
+from lightmeter.candidates.fitting import check_fit
 from lightmeter.candidates.handed import Display, Handed, take
 from lightmeter.candidates.obtaining import Job, check, obtain
 from lightmeter.exporting import export
@@ -16,9 +17,6 @@ from lightmeter.failures import UsageError
 from lightmeter.progress import Report, silent
 from lightmeter.reports.results import FailedCandidate
 from lightmeter.scenes.model import Scene
-
-OWN = "lightmeter"
-"""The name of our own renderer, beside which candidates stand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +37,7 @@ def check_all(candidates: Sequence[Candidate]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise UsageError(f"two candidates are called {name!r}; name them apart, as in --candidate NAME=FILE")
-        if name in (OWN, "frame"):
+        if name in (OWN, FRAME):
             raise UsageError(f"a candidate cannot be called {name!r}, which is lightmeter's own; name it otherwise")
     for candidate in candidates:
         check(candidate)
@@ -69,7 +67,9 @@ def gather(
             report("candidates", number, len(candidates))
             try:
                 files = obtain(candidate, make_job(candidate))
-                handed.append(take(candidate, files, size, scene.camera.exposure, display))
+                taken = take(candidate, files, size, scene.camera.exposure, display)
+                check_fit(taken, scene)
+                handed.append(taken)
             except CandidateError as error:
                 failed.append(FailedCandidate(candidate.name, str(error)))
     report("candidates", len(candidates), len(candidates))

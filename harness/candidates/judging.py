@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lightmeter.candidates.candidate import OWN
 from lightmeter.candidates.failure import CandidateError
-from lightmeter.candidates.gathering import OWN
 from lightmeter.candidates.handed import Handed
-from lightmeter.candidates.layer_buffers import check_layers
 from lightmeter.candidates.layer_names import LAYERS
 from lightmeter.candidates.masking import left_out
 from lightmeter.candidates.registering import register
@@ -62,14 +61,13 @@ class Judged:
             f"{one.words} ({'corrected as asked' if one.corrected else 'not corrected'})" for one in self.findings
         )
 
-    def check(self, of: str, metric: str, scene: Scene) -> None:
+    def check(self, of: str, metric: str) -> None:
         """That a limit can be on it.
 
         Raises:
             CandidateError: it lacks the layer, or a display image is asked for radiance.
         """
         if of != FRAME:
-            check_layers(self.handed, scene)
             if of not in self.handed.layers:
                 raise CandidateError(f"it handed in no layer {of!r}; {nearest(of, self.handed.layers)}")
         elif self.handed.display is not None and metric in METRICS and METRICS[metric].domain != "display":
@@ -122,7 +120,6 @@ def judge(scene: Scene, shapes: np.ndarray, reference: np.ndarray, handed: Seque
 
     Raises:
         UsageError: no pixel is left.
-        CandidateError: what is named as unsupported is not in the scene.
     """
     masked = [left_out(scene, shapes, one) for one in handed]
     away = [pixels for reasons in masked for pixels in reasons.values()]

@@ -6,12 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
-from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.handed import Handed
 from lightmeter.candidates.layer_names import LAYERS
 from lightmeter.realtime.renderer import Capture, Renderer
-from lightmeter.scenes.features import missing_terms
-from lightmeter.scenes.model import Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import stack_points
@@ -61,24 +58,6 @@ class Centres:
         return (self.points.position[0].astype(np.float64) - self.eye) @ self.forward
 
 
-def check_layers(handed: Handed, scene: Scene) -> None:
-    """Every layer is of something that the scene has.
-
-    Raises:
-        CandidateError: a light's number is too large, or the scene has no such term.
-    """
-    missing, lights = missing_terms(scene), len(scene.all_lights)
-    for name, (layer, _) in handed.layers.items():
-        if layer.light is not None and layer.light >= lights:
-            raise CandidateError(
-                f"its layer {name} is of light {layer.light}, and {scene.name} has {lights} "
-                f"({'numbered from 0' if lights else 'none'}); camera.json lists them"
-            )
-        term = LAYERS[layer.kind].term
-        if term in missing:
-            raise CandidateError(f"its layer {name} gives {term}, which {scene.name} does not have: {missing[term]}")
-
-
 def contributions(handed: Handed, name: str, exact: ExactBatch) -> tuple[np.ndarray, np.ndarray]:
     """A layer's part of the image and its oracle's, in radiance, (H, W, 3) each.
 
@@ -89,7 +68,7 @@ def contributions(handed: Handed, name: str, exact: ExactBatch) -> tuple[np.ndar
 
 
 def _at_centre(image: np.ndarray | None) -> np.ndarray:
-    assert image is not None, "check_layers has seen to it"
+    assert image is not None, "`check_fit` has seen to it"
     return image[0]
 
 

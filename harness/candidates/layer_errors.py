@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from lightmeter.candidates.judging import Judged
-from lightmeter.candidates.layer_buffers import Centres, check_layers, contributions, is_term
+from lightmeter.candidates.layer_buffers import Centres, contributions, is_term
 from lightmeter.measuring import Question
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.results import LayerError
@@ -15,12 +15,7 @@ TERM_METRICS = ("rmse", "nrmse", "relative_bias", "flip")
 
 
 def layer_sides(judged: Judged, centres: Centres) -> Iterator[tuple[str, Sides]]:
-    """Every layer that is a term, with both sides of it.
-
-    Raises:
-        CandidateError: a layer is of something that the scene does not have.
-    """
-    check_layers(judged.handed, centres.truth.scene)
+    """Every layer that is a term, with both sides of it."""
     for name in judged.handed.layers:
         if is_term(name, judged.handed):
             both = [contributions(judged.handed, name, exact) for exact in centres.exact]

@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.handed import Handed
-from lightmeter.hints import nearest
 from lightmeter.scenes.model import Scene
 
 
@@ -13,13 +11,8 @@ def left_out(scene: Scene, shapes: np.ndarray, handed: Handed) -> dict[str, np.n
 
     Args:
         shapes: (H, W) index into `Scene.shapes` of what each pixel's centre shows, −1 for none.
-
-    Raises:
-        CandidateError: something named as unsupported is not in the scene; names the nearest.
     """
     asked = handed.unsupported
-    _check("material", asked.materials, {shape.material.name for shape in scene.shapes}, scene)
-    _check("object", asked.objects, {shape.name for shape in scene.shapes}, scene)
     found: dict[str, np.ndarray] = {}
 
     def leave(reason: str, pixels: np.ndarray) -> None:
@@ -40,12 +33,3 @@ def left_out(scene: Scene, shapes: np.ndarray, handed: Handed) -> dict[str, np.n
     if "unsupported" in handed.layers:
         leave("the engine's layer unsupported", handed.layers["unsupported"][1][..., 0] > 0)
     return found
-
-
-def _check(kind: str, names: tuple[str, ...], known: set[str], scene: Scene) -> None:
-    for name in names:
-        if name not in known:
-            raise CandidateError(
-                f"it names the unsupported {kind} {name!r}, which {scene.name} does not have; "
-                + nearest(name, sorted(known))
-            )

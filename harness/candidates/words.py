@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lightmeter import options
-from lightmeter.candidates.candidate import DEFAULT_TIMEOUT, FAULTS, TRANSFERS, Candidate, Unsupported
+from lightmeter.candidates.candidate import DEFAULT_TIMEOUT, FAULTS, FRAME, OWN, TRANSFERS, Candidate, Unsupported
 from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
 
@@ -57,8 +57,6 @@ def candidates(args: argparse.Namespace, config: str = CONFIG) -> tuple[Candidat
     Raises:
         UsageError: a word makes no sense; names the nearest that does.
     """
-    from lightmeter.candidates.gathering import check_all
-
     found = [*(_file(text, config) for text in args.candidate)]
     found += [_command(text) for text in args.candidate_command]
     found += [Candidate(name, "renderer", name) for name in args.renderer]
@@ -67,7 +65,10 @@ def candidates(args: argparse.Namespace, config: str = CONFIG) -> tuple[Candidat
         for word in ("transfer", "candidate_exposure", "timeout", "register"):
             if getattr(args, word):
                 raise UsageError(f"--{word.replace('_', '-')}: there is no candidate that it could be of")
-    check_all(found)
+    if found:
+        from lightmeter.candidates.gathering import check_all
+
+        check_all(found)
     return tuple(found)
 
 
@@ -80,7 +81,8 @@ def _file(text: str, config: str) -> Candidate:
     if not name and not Path(rest).exists() and "{" not in rest:
         hint = f"; {nearest(rest, described)}" if described else ""
         raise UsageError(f"--candidate: there is no file {rest!r}, and no [[candidate]] of that name in {config}{hint}")
-    return Candidate(name or Path(rest).stem, "file", rest)
+    path = Path(rest)
+    return Candidate(name or (path.name if path.stem in (OWN, FRAME) else path.stem), "file", rest)
 
 
 def configured(path: Path) -> dict[str, Candidate]:
