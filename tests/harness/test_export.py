@@ -13,6 +13,7 @@ from lightmeter.reports.image_files import read_image
 from lightmeter.scenes import library, shapes
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.export import camera_document
+from lightmeter.scenes.export.radiant import color_and_strength
 from lightmeter.scenes.framing import gives_light, look_at
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import (
@@ -202,6 +203,15 @@ def test_a_flat_mesh_has_no_normals(tmp_path):
     assert set(flat) == {"POSITION", "COLOR_0"}
 
 
+def test_colour_times_strength_loses_no_bit():
+    rng = np.random.default_rng(2)
+    random = [tuple(row) for row in (10.0 ** rng.uniform(-6, 6, (1000, 3))).tolist()]
+    for radiant in [*random, (0.0, 0.0, 0.0), (1.0, 1.0, 0.5), (2.0, 0.0, 4.0), (1 + 2**-52, 1.0, 0.1)]:
+        color, strength = color_and_strength(radiant)
+        assert tuple(channel * strength for channel in color) == radiant
+        assert max(color) <= 1 <= strength
+
+
 def test_the_environment_is_its_radiance_everywhere(tmp_path):
     exported = export(everything(), SIZE, tmp_path)
     image = read_image(exported.environment)
@@ -274,6 +284,15 @@ def test_a_camera_is_chosen(run, tmp_path):
     assert run("export", SAMPLES / "Cameras/Cameras.gltf", "--camera", 1, "-o", "out").code == 0
     camera = json.loads((tmp_path / "out" / "camera.json").read_text())["camera"]
     assert camera["kind"] == "orthographic" and camera["ymag"] == scene.camera.ymag
+
+
+def test_a_scene_does_not_overwrite_itself(run, refused, tmp_path):
+    """Many glTF files are called scene.gltf, and their buffers scene.bin."""
+    assert run("export", "plane", "-o", "out").code == 0
+    before = (tmp_path / "out" / "scene.gltf").read_bytes()
+    assert "own files" in refused("export", "out/scene.gltf", "-o", tmp_path / "out" / ".." / "out")
+    assert (tmp_path / "out" / "scene.gltf").read_bytes() == before
+    assert run("export", "out/scene.gltf", "-o", "out/again").code == 0
 
 
 TEXTURED = """
