@@ -40,10 +40,15 @@ class Exported:
 def export(scene: Scene, size: tuple[int, int], folder: Path) -> Exported:
     """Write scene.gltf with what it names, environment.exr and camera.json, each file in one step.
 
-    camera.json comes last: once it is there, so is all the rest. `size` is the image's width and height in pixels.
+    camera.json comes last: in a fresh folder, once it is there, so is all the rest.
+
+    Args:
+        scene: the scene.
+        size: the image's width and height in pixels.
+        folder: made where it is missing.
 
     Raises:
-        SceneError: the scene holds a number that is not finite, or a texture that PNG cannot hold.
+        SceneError: the scene holds a number that is not finite, or a texture that glTF cannot hold.
         OSError: the folder cannot be written to.
         ImageError: environment.exr cannot be written.
     """
@@ -75,11 +80,14 @@ def _json(content: dict[str, Any], scene: Scene) -> bytes:
 
 
 def _write(path: Path, data: bytes) -> Path:
+    """A reader sees the old file or the whole new one."""
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         partial.write_bytes(data)
         partial.replace(path)
+    except OSError as error:  # which would name the partial file
+        raise OSError(error.errno, f"cannot be written ({error.strerror})", str(path)) from None
     finally:
         partial.unlink(missing_ok=True)
     return path

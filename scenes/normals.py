@@ -1,6 +1,21 @@
-"""Repairs normals that a file gives."""
+"""Directions that a file gives, made unit vectors."""
 
 import numpy as np
+
+UNIT_ROUNDING = 2.0**-23
+"""How far from 1 the length of a unit vector in float32 may lie: each component c is off by at most 2⁻²⁴·|c|, so the
+length by Σ c²·2⁻²⁴ = 2⁻²⁴ and terms of second order."""
+
+
+def unit_vectors(vectors: np.ndarray) -> np.ndarray:
+    """(N, 3) float64: `vectors` (N, 3), none of them zero, at length 1.
+
+    One that is a unit vector in float32 already stays as it is: rounding it twice could change its last bit, and a
+    file would not give back what was written to it.
+    """
+    vectors = vectors.astype(np.float64)
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.where(np.abs(length - 1) <= UNIT_ROUNDING, vectors, vectors / length)
 
 
 def repaired_normals(normals: np.ndarray, positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, int]:
@@ -24,7 +39,5 @@ def repaired_normals(normals: np.ndarray, positions: np.ndarray, triangles: np.n
         for corner in range(3):
             np.add.at(sums, triangles[:, corner], across)
         normals[lost] = sums[lost]
-        length = np.linalg.norm(normals, axis=1)
-        empty = length == 0
-        normals[empty], length[empty] = (0.0, 1.0, 0.0), 1.0
-    return normals / length[:, None], int(lost.sum())
+        normals[np.linalg.norm(normals, axis=1) == 0] = 0.0, 1.0, 0.0
+    return unit_vectors(normals), int(lost.sum())

@@ -2,8 +2,10 @@
 
 import argparse
 import json
+from pathlib import Path
 
 from lightmeter import options
+from lightmeter.failures import UsageError
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -20,7 +22,11 @@ def run(args: argparse.Namespace) -> int:
     from lightmeter.scenes.load import load
 
     scene = load(args.scene, args.camera)
-    folder = options.output_folder(args.output or f"lightmeter-out/{scene.name}-export")
+    target = Path(args.output or f"lightmeter-out/{scene.name}-export")
+    source = Path(args.scene)
+    if source.is_file() and source.resolve().parent == target.resolve():
+        raise UsageError(f"{target}: the scene's own files could be overwritten here; name another folder with -o")
+    folder = options.output_folder(target)
     exported = export(scene, size, folder)
     files = [str(path.relative_to(folder)) for path in exported.files]
     for note in exported.notes:

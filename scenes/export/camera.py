@@ -25,8 +25,8 @@ CONVENTIONS = {
     "rows": "the top row comes first",
     "units": "metres, radians, W/(sr*m^2), W/sr, W/m^2; exposure in stops",
     "colour": (
-        "scene-linear RGB with the primaries and white of Rec. 709; the image is radiance, before exposure and "
-        "display transform; alpha, if any, is coverage and is not premultiplied"
+        "scene-linear RGB with the primaries and white of Rec. 709: radiance before exposure and display transform, "
+        "with the background's share of a pixel in it. Alpha, if any, is coverage, and not multiplied into the colour"
     ),
     "lights": (
         "glTF's intensity times colour is meant in W/sr (point, spot) and W/m^2 (directional), RGB, not in candela "
@@ -35,10 +35,10 @@ CONVENTIONS = {
         "the light travels. Every light casts shadows. Area lights are the emissive surfaces"
     ),
     "materials": (
-        "glTF 2.0 metallic-roughness (Appendix B): alpha = roughness^2, single scattering, index of refraction 1.5. "
-        "The back of a single-sided material is opaque and black, and casts shadows. Emission leaves the front, or "
-        "both sides of a double-sided material; emissiveFactor times emissiveStrength is in W/(sr*m^2). A mesh without "
-        "normals is flat"
+        "glTF 2.0 metallic-roughness (Appendix B) with alpha = max(roughness^2, 0.001), single scattering, index of "
+        "refraction 1.5. The back of a single-sided material is opaque and black, and casts shadows. Emission leaves "
+        "the front, or both sides of a double-sided material; emissiveFactor times emissiveStrength is in W/(sr*m^2). "
+        "A mesh without normals is flat. The truth traces occlusion and does not read the occlusion texture"
     ),
     "environment": (
         "latitude-longitude, radiance: a direction (x, y, z) of length 1 lies at u = 0.5 + atan2(z, x) / (2 pi) of the "
@@ -64,6 +64,7 @@ def camera_document(scene: Scene, size: tuple[int, int]) -> dict[str, Any]:
         "size": list(size),
         "camera": _camera(scene.camera, size),
         "exposure": scene.camera.exposure,
+        "max_depth": scene.max_depth,
         "environment": environment,
         "lights": [_light(scene, light, index) for index, light in enumerate(scene.all_lights)],
         "conventions": dict(CONVENTIONS),

@@ -17,12 +17,13 @@ SHEAR = 1e-6
 def placed(shape: Shape) -> tuple[Mesh, np.ndarray]:
     """The mesh to write, and where its node stands, (4, 4) float64.
 
-    A node's matrix must be a translation, rotation and scale (section 3.5.2). Where it shears, the triangles are
-    written in world space instead, as both renderers see them.
+    A node's matrix must be a translation, rotation and scale (section 3.5.2). Where it shears or
+    flattens, the triangles are written in world space instead, as both renderers see them.
     """
-    axes = shape.matrix[:3, :3] / np.linalg.norm(shape.matrix[:3, :3], axis=0)
-    sheared = np.abs(axes.T @ axes - np.eye(3)).max() > SHEAR
-    return (shape.world, IDENTITY) if sheared else (shape.mesh, shape.matrix)
+    lengths = np.linalg.norm(shape.matrix[:3, :3], axis=0)
+    axes = shape.matrix[:3, :3] / np.where(lengths > 0, lengths, 1)
+    upright = np.abs(axes.T @ axes - np.eye(3)).max() <= SHEAR
+    return (shape.mesh, shape.matrix) if upright else (shape.world, IDENTITY)
 
 
 class Geometry:

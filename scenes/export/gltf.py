@@ -37,7 +37,7 @@ def gltf_files(scene: Scene, size: tuple[int, int]) -> GltfFiles:
         size: the image's width and height in pixels; the camera's aspect ratio.
 
     Raises:
-        SceneError: PNG cannot hold a texture.
+        SceneError: PNG cannot hold a texture, or glTF would decode it otherwise.
     """
     geometry, materials, notes = Geometry(), Materials(), []
     meshes: dict[tuple[Mesh, Material], int] = {}
@@ -45,7 +45,9 @@ def gltf_files(scene: Scene, size: tuple[int, int]) -> GltfFiles:
     for shape in scene.shapes:
         mesh, matrix = placed(shape)
         if mesh is not shape.mesh:
-            notes.append(f"{shape.name} is written in world space: its matrix shears, which a glTF node cannot")
+            notes.append(
+                f"{shape.name} is written in world space: a glTF node cannot shear or flatten as its matrix does"
+            )
         content = {}
         if len(mesh.triangles):
             content["mesh"] = meshes.setdefault((mesh, shape.material), len(meshes))

@@ -2,11 +2,15 @@
 
 from typing import Any
 
-from ..model import Material
+from ..errors import SceneError
+from ..model import Material, Texture
 from .radiant import color_and_strength
 from .textures import Textures
 
 EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
+CODING = {True: "sRGB", False: "linear"}
+COLOURED = ("base_color", "emissive")
+"""The textures whose colours glTF takes for sRGB-encoded; the others are linear."""
 
 
 class Materials:
@@ -28,15 +32,25 @@ class Materials:
         """Where a material stands in `materials`.
 
         Raises:
-            SceneError: PNG cannot hold a texture.
+            SceneError: PNG cannot hold a texture, or glTF would decode it otherwise.
         """
         if material not in self._numbers:
             self._numbers[material] = len(self.materials)
             self.materials.append(self._content(material))
         return self._numbers[material]
 
+    def _texture(self, material: Material, slot: str, texture: Texture) -> dict[str, Any]:
+        if texture.srgb != (slot in COLOURED):
+            raise SceneError(
+                f"the {slot} texture of material {material.name!r} cannot be exported: glTF says how it is encoded",
+                expected=CODING[slot in COLOURED],
+                actual=CODING[texture.srgb],
+                remedy=f"encode its texels, and set srgb={slot in COLOURED}",
+            )
+        return self.textures.info(texture)
+
     def _content(self, material: Material) -> dict[str, Any]:
-        info = {slot: self.textures.info(texture) for slot, texture in material.textures.items()}
+        info = {slot: self._texture(material, slot, texture) for slot, texture in material.textures.items()}
         pbr: dict[str, Any] = {
             "baseColorFactor": [*material.base_color, material.alpha],
             "metallicFactor": material.metallic,

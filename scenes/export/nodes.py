@@ -5,16 +5,17 @@ from typing import Any
 import numpy as np
 
 from ..framing import look_at
-from ..model import Camera, DirectionalLight, PunctualLight, SpotLight
+from ..model import IDENTITY, Camera, DirectionalLight, PunctualLight, SpotLight
 from .radiant import color_and_strength
 
 PUNCTUAL = "KHR_lights_punctual"
 
 
 def node(name: str, matrix: np.ndarray, **content: Any) -> dict[str, Any]:
-    """A node; glTF writes its matrix column by column."""
+    """A node; glTF writes a matrix (4, 4) column by column, and the identity not at all."""
     columns = np.vstack([matrix[:3], (0, 0, 0, 1)]).T
-    return {"name": name, "matrix": columns.ravel().tolist(), **content}
+    placed = {} if np.array_equal(columns, IDENTITY) else {"matrix": columns.ravel().tolist()}
+    return {"name": name, **placed, **content}
 
 
 def light(given: PunctualLight) -> tuple[dict[str, Any], np.ndarray]:

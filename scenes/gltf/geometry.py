@@ -7,7 +7,7 @@ from lightmeter.scenes.gltf.accessors import read_floats, read_indices
 from lightmeter.scenes.gltf.document import Primitive
 from lightmeter.scenes.gltf.source import Source
 from lightmeter.scenes.model import Mesh
-from lightmeter.scenes.normals import repaired_normals
+from lightmeter.scenes.normals import repaired_normals, unit_vectors
 
 NOT_SURFACES = {0: "points", 1: "lines", 2: "a line loop", 3: "a line strip"}
 TRIANGLES, STRIP = 4, 5
@@ -129,4 +129,4 @@ def _tangents(source: Source, tangents: np.ndarray, place: str) -> np.ndarray | 
     if (length < 1e-12).any():
         source.note(f"{place}: its tangents are derived anew, since some have no length")
         return None
-    return np.concatenate([tangents[:, :3] / length[:, None], np.where(tangents[:, 3:] < 0, -1, 1)], axis=1)
+    return np.concatenate([unit_vectors(tangents[:, :3]), np.where(tangents[:, 3:] < 0, -1, 1)], axis=1)

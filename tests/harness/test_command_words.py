@@ -45,6 +45,10 @@ WRONG = [
     (("reference", "plane", "--size", "x"), "WxH"),
     (("reference", "plane", "--spp", "3"), "--spp"),
     (("reference", "plane", "--only", "srgb"), "'--only'"),
+    (("export", "plnae"), "'plane'"),
+    (("export", "plane", "--size", "x"), "WxH"),
+    (("export", "plane", "--camera", "left"), "glTF"),
+    (("export", "plane", "--spp", "8"), "'--spp'"),
     (("effects", "shadow_mp"), "'shadow_map'"),
     (("sweep", "plnae", "shadow_map"), "'plane'"),
     (("sweep", "posts"), "--all"),
@@ -119,7 +123,8 @@ def test_without_a_command_the_help_is_on_stderr(run):
 
 
 @pytest.mark.parametrize(
-    "command", ["compare", "reference", "sweep", "gate", "diff", "scenes", "effects", "store", "schema", "doctor"]
+    "command",
+    ["compare", "reference", "export", "sweep", "gate", "diff", "scenes", "effects", "store", "schema", "doctor"],
 )
 def test_every_command_explains_itself(run, command):
     found = run(command, "--help")

@@ -13,6 +13,7 @@ SMALL = ("--size", "16x16", "--spp", "8", "-o", "out")
 WORDS = {
     "compare": ("plane", *SMALL),
     "reference": ("plane", *SMALL),
+    "export": ("plane", "-o", "out"),
     "sweep": ("plane", "narkowicz", "--knob", "prescale=0.6", "--curve", "0", *SMALL),
     "gate": (),
     "diff": ("a.png", "a.png", "-o", "out"),
