@@ -1,6 +1,8 @@
 """Which channels of a file make which layer."""
 
-from lightmeter.candidates.layer_names import find_layers
+from pathlib import Path
+
+from lightmeter.candidates.layer_names import LAYERS, find_layers
 
 
 def names(*channels: str) -> list[tuple[str, tuple[str, ...]]]:
@@ -35,3 +37,9 @@ def test_the_image_is_no_layer_and_what_is_not_known_is_told():
 
 def test_a_layer_that_lacks_a_channel_is_not_guessed_at():
     assert find_layers(["direct.R", "direct.G"]) == ((), ("direct",))
+
+
+def test_every_layer_is_in_the_docs():
+    docs = (Path(__file__).parents[3] / "docs" / "candidates.md").read_text(encoding="utf-8")
+    for name, layer in LAYERS.items():
+        assert f"| `{name}` | {layer.meaning} |" in docs
