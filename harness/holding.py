@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter import options
+from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.gathering import check_all
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
 from lightmeter.gating import Trial, decide, start_trials
@@ -69,8 +71,9 @@ def hold(
     seconds: float | None = None,
     confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
+    candidate: Candidate | str | Path | None = None,
 ) -> list[Verdict]:
-    """Judge a scene's frame and effects.
+    """Judge a scene's frame and effects, or another renderer's frame of it.
 
     Args:
         scene: a library name, a path, or a scene.
@@ -79,6 +82,7 @@ def hold(
         seconds: for all limits together; None: until the samples are spent.
         confidence: that no verdict is wrong.
         store: where batches are kept; None: nowhere.
+        candidate: the other renderer, or its frame's file; limits are then on its frame and layers. None: ours.
 
     Returns:
         A verdict for each limit, in their order.
@@ -86,7 +90,8 @@ def hold(
     Raises:
         UsageError: a limit, an effect, a metric or the scene makes no sense.
     """
-    return [trial.verdict for trial in hold_trials(scene, limits, how, seconds, confidence, store) if trial.verdict]
+    trials = hold_trials(scene, limits, how, seconds, confidence, store, candidate)
+    return [trial.verdict for trial in trials if trial.verdict]
 
 
 def hold_trials(
@@ -96,26 +101,38 @@ def hold_trials(
     seconds: float | None = None,
     confidence: float = options.DEFAULT_CONFIDENCE,
     store: Store | None = None,
+    candidate: Candidate | str | Path | None = None,
 ) -> list[Trial]:
     """As `hold`, with what the verdicts rest on: cases, and images for a report (`gate_pictures.error_maps`)."""
     _check(limits, confidence)
     options.check_seconds(seconds, "seconds")
     source = scene if isinstance(scene, Scene) else str(scene)
     usual = how or conditions()
+    other = _candidate(candidate)
     cases = {}
     pairs = []
     for given in limits:
         limit = given if isinstance(given, Limit) else parse_limit(given, usual, str(source))
         if limit.regression is not None:
             raise UsageError(f"{limit.place}: a regression needs a baseline: hold it with `lightmeter gate`")
+        limit = replace(limit, candidate=other.name) if other else limit
         check_metric(limit)
         if limit.conditions not in cases:
-            cases[limit.conditions] = make_case(source, limit, store)
+            cases[limit.conditions] = make_case(source, limit, store, (other,) if other else ())
         check_target(limit, cases[limit.conditions])
         pairs.append((limit, cases[limit.conditions]))
     trials = start_trials(pairs, confidence)
     decide(trials, seconds)
     return trials
+
+
+def _candidate(given: Candidate | str | Path | None) -> Candidate | None:
+    """A candidate that can be asked for a frame."""
+    if given is None:
+        return None
+    found = given if isinstance(given, Candidate) else Candidate(Path(given).name, "file", str(given))
+    check_all([found])
+    return found
 
 
 def hold_images(

@@ -4,6 +4,7 @@ def test_the_courtyard(lightmeter):
     lightmeter.hold("scenes/courtyard.toml", "flip <= 0.12", "shadow_map.rmse <= 0.02", size="128x128")
 
 def test_our_engine(lightmeter):
+    lightmeter.hold("posts", "flip <= 0.1", "visibility.0.rmse <= 0.02", candidate="frame.exr")
     lightmeter.hold_images("frame.exr", "truth.exr", "flip <= 0.05")
 
 pytest loads this module in every run of whoever has lightmeter installed. So nothing of weight is imported here: what
@@ -31,6 +32,7 @@ from lightmeter.hints import nearest
 if TYPE_CHECKING:
     import numpy as np
 
+    from lightmeter.candidates.candidate import Candidate
     from lightmeter.reports.gate_markdown import Maps
     from lightmeter.reports.verdict import Verdict
     from lightmeter.scenes.model import Scene
@@ -107,6 +109,7 @@ class Lightmeter:
         *limits: str,
         seconds: float | None = None,
         confidence: float | None = None,
+        candidate: "Candidate | str | Path | None" = None,
         **how: Any,
     ) -> "list[Verdict]":
         """Judge a scene's frame and effects; the test fails where a limit does not hold.
@@ -115,6 +118,7 @@ class Lightmeter:
             scene: a library name, a path, or a scene.
             limits: "[EFFECT.]METRIC <= NUMBER", or >=; all forms are in `limit_text.parse_limit`.
             seconds, confidence: in place of those of the run.
+            candidate: another renderer, or its frame's file, to be judged in place of our own frame.
             how: size ("128x128"), spp, seed, camera, only, without, use and knobs, as in `holding.conditions`.
 
         Returns:
@@ -126,13 +130,14 @@ class Lightmeter:
             from lightmeter.groundtruth.store import Store
             from lightmeter.holding import conditions, hold_trials
 
-            known = [*signature(conditions).parameters, "seconds", "confidence"]
+            known = [*signature(conditions).parameters, "seconds", "confidence", "candidate"]
             for name in how:
                 if name not in known:
                     raise UsageError(f"hold takes no {name!r}; {nearest(name, known)}")
             start = time.perf_counter()
             budget = self.seconds if seconds is None else seconds
-            trials = hold_trials(scene, limits, conditions(**how), budget, sure, Store(say=options.say))
+            store = Store(say=options.say)
+            trials = hold_trials(scene, limits, conditions(**how), budget, sure, store, candidate)
             verdicts = [trial.verdict for trial in trials if trial.verdict]
             took = time.perf_counter() - start
             report = self._write(verdicts, lambda: error_maps(trials), sure, took)

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from lightmeter.failures import UsageError
+from lightmeter.holding import conditions, hold
 from lightmeter.reports.image_files import write_exr
 
 from .frames import own_renderer, write_own_frame
@@ -96,3 +98,14 @@ def test_a_candidate_that_is_not_described_is_refused(refused, tmp_path):
         '[[limit]]\nscene = "torus"\nmetric = "flip"\nmax = 0.9\ncandidate = "engin"\n'
     )
     assert "did you mean 'engine'" in refused("gate")
+
+
+def test_a_python_test_holds_another_renderers_frame(own_frame, tmp_path):
+    how = conditions(size="32x32", spp=16)
+    verdicts = hold("torus", ["relative_bias <= 0.9", "visibility.0.nrmse <= 5"], how, candidate=own_frame)
+    assert [(v.name, v.status) for v in verdicts] == [
+        ("torus/frame.exr/relative_bias", "PASS"),
+        ("torus/frame.exr visibility.0/nrmse", "PASS"),
+    ]
+    with pytest.raises(UsageError, match=r"has no 'visibilty\.0' to judge"):
+        hold("torus", ["visibilty.0.nrmse <= 5"], how, candidate=own_frame)
