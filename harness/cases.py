@@ -84,6 +84,10 @@ class Case:
             self._judged[candidate] = judge(self.scene, self._seen, np.stack(batches), handed)[0]
         return self._judged[candidate]
 
+    def gave(self, candidate: str) -> bool:
+        """Whether a candidate that was asked gave a frame."""
+        return candidate in self._judged
+
     @cached_property
     def _seen(self) -> np.ndarray:
         return self.renderer.capture(terms=False).points.shape

@@ -155,8 +155,20 @@ def _write_reports(folder: Path, trials) -> None:
         spp[trial.case] = max(spp.get(trial.case, options.DEFAULT_SPP), taken)
     for case, samples in spp.items():
         c = case.conditions
-        outcome = compare(case.scene, c.size, Budget(samples), c.seed, choice_of(c), store=case.store, say=options.say)
-        write_outcome(folder / _file_name(case.name), outcome)
+        place = folder / _file_name(case.name)
+        names = dict.fromkeys(t.limit.candidate for t in trials if t.case is case and t.limit.candidate)
+        outcome = compare(
+            case.scene,
+            c.size,
+            Budget(samples),
+            c.seed,
+            choice_of(c),
+            store=case.store,
+            say=options.say,
+            candidates=[case.candidates[name] for name in names if case.gave(name)],
+            candidates_folder=place / "candidates",
+        )
+        write_outcome(place, outcome)
 
 
 def _print_verdicts(verdicts, document: dict) -> None:
