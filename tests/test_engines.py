@@ -1,8 +1,9 @@
 """The example engines, on scenes whose answer is known: `pytest -m slow tests/test_engines.py` after what their READMEs
-install. An engine that is not there is skipped with the reason."""
+install. An engine that is not there is skipped with the reason. LIGHTMETER_BPY_PYTHON names a Python that has bpy."""
 
 import importlib.util
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -59,29 +60,29 @@ class Drawn:
 
     Attributes:
         image: (H, W, 3).
-        depth: (H, W) metres.
+        depth: (H, W) metres, where the engine gives it.
         eye, rays: where the camera is, (3,), and the way each pixel's centre looks, (H, W, 3), 1 long along its axis.
     """
 
     image: np.ndarray
-    depth: np.ndarray
+    depth: np.ndarray | None
     side: SideFile
     eye: np.ndarray
     rays: np.ndarray
 
 
-def draw(engine: str, scene: Scene, folder: Path) -> Drawn:
+def draw(engine: str, scene: Scene, folder: Path, python: str = sys.executable) -> Drawn:
     """Export the scene and run the engine's script on it, as a user would."""
     exported, out = export(scene, SIZE, folder / "scene"), folder / "out.exr"
-    words = [EXAMPLES / engine / "render.py", exported.gltf, exported.camera, *map(str, SIZE), out]
-    done = subprocess.run([sys.executable, *words], capture_output=True, text=True, check=False)
+    words = [python, EXAMPLES / engine / "render.py", exported.gltf, exported.camera, *map(str, SIZE), out]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     with OpenEXR.File(str(out), separate_channels=True) as file:
         channels = {name: channel.pixels for name, channel in file.channels().items()}
     camera = json.loads(exported.camera.read_text())["camera"]
     return Drawn(
         np.stack([channels[name] for name in "RGB"], axis=-1),
-        channels["depth.Z"],
+        channels.get("depth.Z"),
         read_side_file(out.with_suffix(".json")),
         np.array(camera["position"]),
         _rays(camera),
@@ -134,6 +135,18 @@ def test_diffuse_tiles_have_their_closed_form(engine, light, tmp_path):
     drawn = draw(engine, tiles(light), tmp_path)
     np.testing.assert_allclose(drawn.image, reflected(drawn, light), rtol=HALF_FLOAT)
     np.testing.assert_allclose(drawn.depth, _depth_of_the_wall(drawn, 0.0), rtol=HALF_FLOAT)
+
+
+def test_cycles_has_the_closed_form_of_diffuse_tiles(tmp_path):
+    """Cycles averages over a pixel's square. Under a sun a tile is even: only pixels on an edge between tiles differ.
+    There are two edges, and a line crosses fewer pixels than the picture has rows and columns."""
+    python = os.environ.get("LIGHTMETER_BPY_PYTHON")
+    if not python:
+        pytest.skip("no bpy: LIGHTMETER_BPY_PYTHON names no Python that has it (examples/cycles/README.md)")
+    drawn = draw("cycles", tiles(SUN), tmp_path, python)
+    apart = ~np.isclose(drawn.image, reflected(drawn, SUN), rtol=HALF_FLOAT).all(axis=-1)
+    assert apart.sum() < 2 * sum(SIZE)
+    assert drawn.side.time is not None and drawn.side.engine.startswith("Cycles")
 
 
 def _depth_of_the_wall(drawn: Drawn, z: float) -> np.ndarray:
