@@ -8,8 +8,10 @@ from lightmeter.reports.results import Candidate, Finding, LayerError, Timing
 from lightmeter.reports.shown_names import printable
 
 COLUMNS = ("rmse", "flip", "ssim", "relative_bias")
-_LOST = ("background",)
-"""Faults that leave nothing to correct: what is missing is not in the picture in another form."""
+LAYER_COLUMNS = ("rmse", "nrmse", "flip", "ssim", "relative_bias")
+_LEFT_OUT = {"background": "--no-background"}
+"""What leaves nothing to correct, since what is missing is not in the picture in another form: by which option the
+pixels are left out instead."""
 
 
 def is_ours(candidate: Candidate) -> bool:
@@ -41,17 +43,30 @@ def fault_name(finding: Finding) -> str:
 
 
 def fault_status(finding: Finding) -> str:
-    if finding.corrected:
-        return "corrected as asked"
-    return "cannot be corrected" if finding.fault in _LOST else "not corrected"
+    return "corrected as asked" if finding.corrected else "not corrected"
 
 
-def remedy(findings: Sequence[Finding]) -> str:
-    """The option that corrects them all, also those that were corrected; "" where it would change nothing."""
-    mendable = [finding for finding in findings if finding.fault not in _LOST]
-    if all(finding.corrected for finding in mendable):
+def remedies(findings: Sequence[Finding]) -> list[tuple[str, str]]:
+    """What can be done about those that were not corrected, and the option that does it.
+
+    The option names what was corrected already too, so that it can be given in place of the one that was.
+    """
+    mendable = [finding for finding in findings if finding.fault not in _LEFT_OUT]
+    found = []
+    if not all(finding.corrected for finding in mendable):
+        faults = ",".join(dict.fromkeys(printable(finding.fault) for finding in mendable))
+        found.append(("to correct it before anything is measured", f"--register {faults}"))
+    for finding in findings:
+        if finding.fault in _LEFT_OUT and not finding.corrected:
+            found.append((f"to leave out the {finding.fault}", _LEFT_OUT[finding.fault]))
+    return found
+
+
+def time_words(candidate: Candidate) -> str:
+    """Who measured the time and what it holds; "" where there is none."""
+    if candidate.time_ms is None:
         return ""
-    return "--register " + ",".join(dict.fromkeys(printable(finding.fault) for finding in mendable))
+    return printable(candidate.time_how) or ("start-up and loading included" if candidate.time_whole else "")
 
 
 def masked_words(candidate: Candidate) -> list[str]:
@@ -60,10 +75,13 @@ def masked_words(candidate: Candidate) -> list[str]:
     return [f"{count:,} {printable(reason)}" for reason, count in counts if count]
 
 
-def compared_pixels(candidates: Sequence[Candidate]) -> str:
-    """How many pixels are compared: one number, since all engines are compared over the same ones."""
-    counts = [candidate.pixels for candidate in candidates]
-    return " to ".join(f"{count:,}" for count in sorted({min(counts), max(counts)}))
+def pixel_words(candidates: Sequence[Candidate], size: tuple[int, int]) -> str:
+    """Over which pixels the engines, one at least, are compared: all of them over the same ones."""
+    total = size[0] * size[1]
+    counts = sorted({candidate.pixels for candidate in candidates})
+    if counts == [total]:
+        return f"over all {total:,} pixels"
+    return f"over {' or '.join(f'{count:,}' for count in counts)} of {total:,} pixels, those that every engine supports"
 
 
 def not_finite(candidate: Candidate) -> str:

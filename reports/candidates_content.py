@@ -6,7 +6,7 @@ from typing import Any
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.candidate_words import (
     COLUMNS,
-    compared_pixels,
+    LAYER_COLUMNS,
     fault_name,
     fault_status,
     is_ours,
@@ -14,8 +14,10 @@ from lightmeter.reports.candidate_words import (
     masked_words,
     not_finite,
     pair_name,
-    remedy,
+    pixel_words,
+    remedies,
     time_as_measured,
+    time_words,
 )
 from lightmeter.reports.cells import measured, named, terms_with_meaning
 from lightmeter.reports.engine_plot import engine_mark, engine_plot
@@ -42,8 +44,7 @@ def candidates_content(results: Results, shown: set[str]) -> dict[str, Any] | No
     plots = [engine_plot(candidates, metric) for metric in present(_PLOTTED, names)]
     marks = [engine_mark(place, candidate) for place, candidate in enumerate(candidates)]
     return {
-        "pixels": compared_pixels(candidates) if candidates else "",
-        "of_pixels": f"{results.size[0] * results.size[1]:,}",
+        "pixels": pixel_words(candidates, results.size),
         "columns": [named(name) for name in columns],
         "rows": [_row(one, mark, columns, axis, shown) for one, mark in zip(candidates, marks, strict=True)],
         "plots": [plot for plot in plots if plot],
@@ -79,7 +80,6 @@ def _row(
         "cells": {name: _cell(name, candidate.metrics) for name in columns},
         "bar": axis.bar(rmse) if rmse else None,
         "time": _time(candidate),
-        "masked": f"{sum(candidate.masked.values()):,}",
         "reasons": masked[:_MOST_REASONS],
         "more_reasons": masked[_MOST_REASONS:],
     }
@@ -97,12 +97,7 @@ def _time(candidate: Candidate) -> dict[str, Any] | None:
     if timing is None:
         return None
     spread = f"median over {timing.frames} frames, ± median absolute deviation" if timing.frames > 1 else "one run"
-    how = [printable(candidate.time_how), "start-up and loading included" if candidate.time_whole else ""]
-    return measured(time_as_measured(timing)) | {
-        "unit": "",
-        "remarks": spread,
-        "tail": "; ".join(part for part in how if part),
-    }
+    return measured(time_as_measured(timing)) | {"unit": "", "remarks": spread, "tail": time_words(candidate)}
 
 
 def _findings(candidate: Candidate, mark: dict[str, Any]) -> dict[str, Any]:
@@ -119,13 +114,13 @@ def _findings(candidate: Candidate, mark: dict[str, Any]) -> dict[str, Any]:
             }
             for finding in candidate.findings
         ],
-        "remedy": remedy(candidate.findings),
+        "remedies": remedies(candidate.findings),
     }
 
 
 def _layers(candidate: Candidate, mark: dict[str, Any], shown: set[str]) -> dict[str, Any]:
     """A row per buffer; the shares of the frame's error beside them, with rows for those that no buffer has."""
-    columns = present(COLUMNS, [name for layer in candidate.layers for name in layer.metrics])
+    columns = present(LAYER_COLUMNS, [name for layer in candidate.layers for name in layer.metrics])
     attribution = candidate.attribution
     metric = next(iter(attribution.total), "") if attribution else ""
     shares = _shares(attribution, metric) if attribution and metric else {}
@@ -148,7 +143,7 @@ def _layers(candidate: Candidate, mark: dict[str, Any], shown: set[str]) -> dict
             for layer in candidate.layers
         ],
         "rest": [
-            {"name": short_name(name), "share": _share(shares, name, axis)}
+            {"name": short_name(name), "remark": _why_apart(name, candidate), "share": _share(shares, name, axis)}
             for name in shares
             if name not in owners.values()
         ],
@@ -171,6 +166,14 @@ def _player_of(layer: LayerError, layers: Sequence[LayerError], shares: dict[str
         return layer.layer
     alone = sum(other.term == layer.term for other in layers) == 1
     return layer.term if alone and layer.term in shares else ""
+
+
+def _why_apart(name: str, candidate: Candidate) -> str:
+    """Why a player is not one of the layers."""
+    if any(layer.term == name for layer in candidate.layers):
+        return "its layers together"
+    players = candidate.attribution.players if candidate.attribution else ()
+    return "no layer" if any(player.name == name for player in players) else ""
 
 
 def _share(shares: dict[str, Measurement], name: str, axis: Axis) -> dict[str, Any] | None:

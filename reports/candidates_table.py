@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING
 
 from lightmeter.reports.candidate_words import (
     COLUMNS,
-    compared_pixels,
     fault_name,
     fault_status,
     is_ours,
     masked_words,
     not_finite,
-    remedy,
+    pixel_words,
+    remedies,
     time_as_measured,
+    time_words,
 )
 from lightmeter.reports.metric_words import label, present
 from lightmeter.reports.results import Candidate, FailedCandidate, Results
@@ -69,20 +70,16 @@ def _times(candidates: Sequence[Candidate]) -> Iterator[Text]:
     """Who measured which engine's time, and what it holds."""
     found: dict[str, list[str]] = {}
     for candidate in candidates:
-        if candidate.time_ms:
-            whole = "with start-up and loading" if candidate.time_whole else ""
-            how = ", ".join(part for part in (printable(candidate.time_how), whole) if part)
+        if how := time_words(candidate):
             found.setdefault(how, []).append(_name(candidate))
     for how, names in found.items():
-        if how:
-            yield reason(f"time of {', '.join(names)}", how)
+        yield reason(f"time of {', '.join(names)}", how)
 
 
 def _caption(results: Results) -> str:
     metrics = [candidate.metrics for candidate in results.candidates]
     unit = next((one["rmse"].unit for one in metrics if "rmse" in one and one["rmse"].unit), "")
-    pixels = f"over {compared_pixels(results.candidates)} of {results.size[0] * results.size[1]:,} pixels"
-    return "; ".join([*([f"RMSE in {unit}"] if unit else []), f"{pixels}, those that every engine supports"])
+    return "; ".join([*([f"RMSE in {unit}"] if unit else []), pixel_words(results.candidates, results.size)])
 
 
 def _name(candidate: Candidate) -> str:
@@ -98,8 +95,8 @@ def _remarks(candidate: Candidate) -> Iterator[Text]:
     for finding in candidate.findings:
         words = f"{name}: {fault_name(finding)}: {printable(finding.words)}; {fault_status(finding)}"
         yield Text(f"registration of {words}", style="" if finding.corrected else "yellow")
-    if option := remedy(candidate.findings):
-        yield Text(f"  to correct it before anything is measured: {option}", style="yellow")
+    for purpose, option in remedies(candidate.findings):
+        yield Text(f"  {purpose}: {option}", style="yellow")
     if masked := masked_words(candidate):
         yield reason(f"masked for {name}", ", ".join(masked))
     for layer in candidate.layers:

@@ -12,10 +12,12 @@ from lightmeter.reports.candidate_words import is_ours, pair_name
 from lightmeter.reports.display_curve import DisplayCurve, srgb_curve
 from lightmeter.reports.engine_plot import engine_mark
 from lightmeter.reports.heatmap import MASKED, colour_map, colourise
-from lightmeter.reports.pictures import Pair
+from lightmeter.reports.pictures import Pair, Space
 from lightmeter.reports.results import Candidate
 from lightmeter.reports.shown_names import short_name
 from lightmeter.reports.significant import show_value
+
+Mask = npt.NDArray[np.bool_] | None
 
 SIDE = 288
 _MAP = "flip"
@@ -29,25 +31,27 @@ def engine_strip(
 ) -> dict[str, Any] | None:
     """The truth, then each engine that has a pair; None where none has.
 
-    No picture is brightened on its own and no map has a range of its own, so that they can be held side by side.
+    No picture is brightened on its own, no map has a range of its own, and all are masked as one of them is, since all
+    are measured over the same pixels: so they can be held side by side.
     """
     named = {pair.name: pair for pair in pairs}
     shown = [(place, one, named[pair_name(one)]) for place, one in enumerate(candidates) if pair_name(one) in named]
     if not shown:
         return None
-    truth = shown[0][2]
+    first = shown[0][2]
+    mask = next((pair.mask for _, _, pair in shown if pair.mask is not None), None)
     return {
-        "truth": picture_uri(truth.truth, truth, curve),
+        "truth": _picture_uri(first.truth, first.space, None, curve),
         "bar": _png_uri(np.ascontiguousarray(colour_map(_COLOURS).rgb[None, :, :])),
-        "masked": any(pair.mask is not None and not pair.mask.all() for _, _, pair in shown),
+        "masked": mask is not None and not mask.all(),
         "engines": [
             {
                 "name": short_name(one.name),
                 "ours": is_ours(one),
                 "mark": engine_mark(place, one),
                 "pair": pair.name,
-                "picture": picture_uri(pair.tested, pair, curve),
-                "map": _map_uri(pair),
+                "picture": _picture_uri(pair.tested, pair.space, mask, curve),
+                "map": _map_uri(pair, mask),
                 "flip": show_value(one.metrics[_MAP]) if _MAP in one.metrics else "",
             }
             for place, one, pair in shown
@@ -55,30 +59,30 @@ def engine_strip(
     }
 
 
-def picture_uri(image: npt.NDArray[np.float32], pair: Pair, curve: DisplayCurve | None) -> str:
-    """One of the pair's two pictures through the frame's display transform; sRGB where there is none."""
-    bad = (~np.isfinite(image)).any(axis=2)
-    finite = np.where(bad[..., None], 0.0, image.astype(np.float64))
-    display = finite if pair.space == "display" else (curve or srgb_curve()).apply(finite)
-    small = reduced(np.where(bad[..., None], np.nan, np.clip(display, 0, 1)), pair.mask)
+def _picture_uri(image: npt.NDArray[np.float32], space: Space, mask: Mask, curve: DisplayCurve | None) -> str:
+    """A picture through the frame's display transform; sRGB where there is none."""
+    bad = np.any(~np.isfinite(image), axis=2, keepdims=True)
+    finite = np.where(bad, 0.0, image.astype(np.float64))
+    display = finite if space == "display" else (curve or srgb_curve()).apply(finite)
+    small = reduced(np.where(bad, np.nan, np.clip(display, 0, 1)), mask)
     picture = np.round(255 * np.nan_to_num(small)).astype(np.uint8)
     picture[~np.isfinite(small).all(axis=2)] = _NOT_FINITE
-    judged = _judged(pair)
+    judged = _judged(mask)
     if judged is not None:
         picture[~judged] = MASKED
     return _png_uri(picture)
 
 
-def _map_uri(pair: Pair) -> str:
+def _map_uri(pair: Pair, mask: Mask) -> str:
     """The FLIP map in the viewer's colours, 0 to 1; "" where the pair has none."""
     values = next((error.values for error in pair.errors if error.name == _MAP), None)
     if values is None:
         return ""
-    small = reduced(values[..., None].astype(np.float64), pair.mask)[..., 0]
-    return _png_uri(colourise(small, colour_map(_COLOURS), 0.0, 1.0, _judged(pair)))
+    small = reduced(values[..., None].astype(np.float64), mask)[..., 0]
+    return _png_uri(colourise(small, colour_map(_COLOURS), 0.0, 1.0, _judged(mask)))
 
 
-def reduced(image: npt.NDArray[np.float64], mask: npt.NDArray[np.bool_] | None, side: int = SIDE) -> npt.NDArray:
+def reduced(image: npt.NDArray[np.float64], mask: Mask, side: int = SIDE) -> npt.NDArray[np.float64]:
     """`image` (H, W, C) with neither side above `side`: means over squares of pixels, of those that `mask` keeps.
 
     A mean over a pixel that is not finite is not finite: the pixel is not lost. A square without any kept pixel is 0.
@@ -89,11 +93,11 @@ def reduced(image: npt.NDArray[np.float64], mask: npt.NDArray[np.bool_] | None, 
     return sums / np.maximum(1, _summed(kept[..., None].astype(np.float64), step))
 
 
-def _judged(pair: Pair) -> npt.NDArray[np.bool_] | None:
+def _judged(mask: Mask) -> npt.NDArray[np.bool_] | None:
     """Which of the squares hold a pixel that is judged."""
-    if pair.mask is None:
+    if mask is None:
         return None
-    return _summed(pair.mask[..., None].astype(np.float64), _step(pair.mask.shape, SIDE))[..., 0] > 0
+    return _summed(mask[..., None].astype(np.float64), _step(mask.shape, SIDE))[..., 0] > 0
 
 
 def _step(shape: Sequence[int], side: int) -> int:

@@ -7,7 +7,7 @@ import pytest
 from rich.console import Console
 
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.reports.candidate_words import masked_words, remedy, time_as_measured
+from lightmeter.reports.candidate_words import masked_words, pixel_words, remedies, time_as_measured
 from lightmeter.reports.candidates_content import candidates_content
 from lightmeter.reports.results import Attribution, FailedCandidate, Finding, LayerError, Player, Results, Timing
 from lightmeter.reports.shown_names import printable_lines, short_name, text_width
@@ -42,14 +42,22 @@ def test_the_remedy_names_all_that_can_be_corrected() -> None:
         Finding("exposure", "", corrected=True),
         Finding("background", ""),
     )
-    assert remedy([shift, exposure, background]) == "--register shift,exposure"
-    assert remedy([exposure, background]) == ""
-    assert remedy([]) == ""
+    register = ("to correct it before anything is measured", "--register shift,exposure")
+    leave_out = ("to leave out the background", "--no-background")
+    assert remedies([shift, exposure, background]) == [register, leave_out]
+    assert remedies([exposure, background]) == [leave_out]
+    assert remedies([exposure]) == []
 
 
 def test_masks_are_told_the_largest_first() -> None:
     candidate = dataclasses.replace(make_candidates()[0], masked={"a": 3, "b": 4000, "c": 0})
     assert masked_words(candidate) == ["4,000 b", "3 a"]
+
+
+def test_pixels_are_all_or_those_that_every_engine_supports() -> None:
+    candidates = make_candidates()
+    assert pixel_words(candidates, (40, 100)) == "over all 4,000 pixels"
+    assert pixel_words(candidates, (40, 101)) == "over 4,000 of 4,040 pixels, those that every engine supports"
 
 
 def test_a_single_run_has_no_spread() -> None:
@@ -73,7 +81,7 @@ def test_a_share_is_given_to_one_layer_only() -> None:
     assert content
     (table,) = content["layers"]
     assert [bool(row["share"]) for row in table["rows"]] == [True, False, True]
-    assert [row["name"] for row in table["rest"]] == ["visibility"]
+    assert [(row["name"], row["remark"]) for row in table["rest"]] == [("visibility", "its layers together")]
     assert table["rows"][0]["share"]["cell"]["value"] == "25.0"
 
 
@@ -103,7 +111,7 @@ def test_terminal_lists_engines_findings_and_failures() -> None:
     assert ["slow", "0.02000", "±", "0.00060", "0.0300", "0.9700", "−0.01000", "2400"] in rows
     for line in (
         "RMSE in W/sr/m²; over 4,000 of 9,216 pixels, those that every engine supports",
-        "time of slow: measured around the command, with start-up and loading",
+        "time of slow: measured around the command",
         "registration of our <engine> & co: shift: shifted by 0.50 pixels right and 0.00 down; not corrected",
         "registration of our <engine> & co: exposure: brighter by a factor of 1.50; corrected as asked",
         "  to correct it before anything is measured: --register shift,exposure",
