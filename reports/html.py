@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.embedded_data import pack_image, pack_mask
+from lightmeter.reports.engine_strip import engine_strip
 from lightmeter.reports.heatmap import colour_map, map_for
 from lightmeter.reports.page_content import page_content
 from lightmeter.reports.pictures import ErrorMap, Pair
@@ -41,7 +42,8 @@ def write_report(
     Args:
         results: the numbers. Sections that have nothing are left out, so `diff` uses the same page.
         pairs: what the viewer shows; the first one at once. A pair named as an effect ("frame" for the frame) is
-            opened by that effect's row.
+            opened by that effect's row; one named as an engine by the engine's row and pictures, and one named
+            "<engine> <layer>" by the layer's row. Engines' pairs hold a "flip" map.
         display_curve: the frame's own display transform; without it scene-linear pictures are shown as sRGB.
         thumbnails: pair name to uint8 (h, w, 3), in place of one made from the tested picture.
 
@@ -88,10 +90,12 @@ def render_report(
         lstrip_blocks=True,
     )
     script = "(() => {\n'use strict';\n" + "\n".join(_asset(name) for name in _SCRIPTS) + "})();\n"
+    content = page_content(results, set(names))
     return environment.get_template("report.html").render(
-        page_content(results, set(names)),
+        content,
+        strip=engine_strip(results.candidates, pairs, display_curve),
         pairs=[_card(pair, display_curve, thumbnails or {}) for pair in pairs],
-        style=_asset("report.css"),
+        style=_asset("report.css") + (_asset("candidates.css") if content["candidates"] else ""),
         script=script,
         script_hash=base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
         viewer_json=_script_safe(viewer),

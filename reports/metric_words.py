@@ -52,7 +52,7 @@ _READING = {
 
 # What stands beside a mean, since a small wrong highlight drowns in a large right background: name to short label.
 TAILS = {
-    "rmse": {"rms_p95": "p95", "rms_p99": "p99", "rms_worst_tile": "worst tile"},
+    "rmse": {"p50": "median", "p99": "p99", "rms_p95": "p95", "rms_p99": "p99", "rms_worst_tile": "worst tile"},
     "flip": {"flip_p95": "p95", "flip_p99": "p99", "flip_worst_tile": "worst tile"},
 }
 

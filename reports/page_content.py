@@ -6,6 +6,7 @@ from typing import Any
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.attribution_content import attribution_content
+from lightmeter.reports.candidates_content import candidates_content
 from lightmeter.reports.cells import measured, named, share_of_width, terms_with_meaning, timed
 from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.metric_words import beside_the_mean, in_order, label, present
@@ -27,6 +28,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "failures": _failures(results),
         "tiles": _tiles(results),
         "closure": _closure(results),
+        "candidates": candidates_content(results, shown),
         "attribution": attribution_content(results, shown),
         "objects": object_content(results.objects),
         "effects": _effects(results, shown),

@@ -51,7 +51,8 @@ class Pair:
     """A tested picture, its truth, and the error maps between them.
 
     Attributes:
-        name: an effect's name, or "frame" for the whole frame; unique within a report.
+        name: an effect's name, an engine's, that of an engine and of its layer with a space between, or "frame" for
+            the whole frame; unique within a report.
         title: as people read it.
         terms: the terms it is judged on; empty for the frame.
         tested: float32 (H, W, 3).

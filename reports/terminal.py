@@ -6,17 +6,19 @@ Names come from scene files and drivers, so every cell is plain `Text`: nothing 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.candidates_table import side_by_side
 from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.fix_first import fix_first
 from lightmeter.reports.metric_words import TAILS, beside_the_mean, error_phrase, in_order, label, present
 from lightmeter.reports.object_content import by_share
 from lightmeter.reports.percentages import in_percent, percent_of
-from lightmeter.reports.results import Attribution, ObjectError, Results, Timing
-from lightmeter.reports.significant import show_interval, show_measurement, show_value
+from lightmeter.reports.results import Attribution, ObjectError, Results
+from lightmeter.reports.shown_names import printable
+from lightmeter.reports.significant import show_measurement
+from lightmeter.reports.terminal_cells import bare, full, milliseconds, number, reason
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -33,7 +35,8 @@ _STYLES = {"meets": "green", "wide": "yellow", "unknown": "yellow", "differs": "
 
 
 def comparison(results: Results) -> Group:
-    """Table of effects and frame, what to fix first, closure, what was left out, notes: what there is of them."""
+    """Table of effects and frame, what to fix first, closure, what was left out, notes, engines side by side: what
+    there is of them."""
     from rich.console import Group
     from rich.text import Text
 
@@ -48,10 +51,11 @@ def comparison(results: Results) -> Group:
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
-    parts += [_reason("left out", item.what, item.why) for item in results.left_out]
+    parts += [reason("left out", item.what, item.why) for item in results.left_out]
     if results.not_approximated:
-        parts.append(_reason("not approximated", ", ".join(results.not_approximated)))
-    parts += [_reason("note", note) for note in results.notes]
+        parts.append(reason("not approximated", ", ".join(results.not_approximated)))
+    parts += [reason("note", note) for note in results.notes]
+    parts += side_by_side(results)
     return Group(*parts)
 
 
@@ -78,10 +82,12 @@ def comparison_table(results: Results) -> Table:
         table.add_column(f"% of {label(_SHARED)}", justify="right", no_wrap=True)
     table.add_column("ms", justify="right", no_wrap=True)
     for effect in results.effects:
-        cells = [_number(effect.metrics.get(name)) for name in columns]
+        cells = [number(effect.metrics.get(name)) for name in columns]
         cells += [_percent(shares.get(effect.effect))] if shares else []
         terms = Text("\n".join(effect.terms))
-        table.add_row(Text(effect.effect), terms, _bare(effect.metrics.get("rmse")), *cells, _time(effect.time_ms))
+        table.add_row(
+            Text(effect.effect), terms, bare(effect.metrics.get("rmse")), *cells, milliseconds(effect.time_ms)
+        )
     effects = {effect.effect for effect in results.effects}
     for name in (name for name in shares if name not in effects):
         blank = [Text() for _ in columns]
@@ -89,9 +95,11 @@ def comparison_table(results: Results) -> Table:
     if results.effects:
         table.add_section()
     frame = results.frame.metrics
-    cells = [_number(frame.get(name)) for name in columns]
+    cells = [number(frame.get(name)) for name in columns]
     cells += [Text("100")] if shares else []
-    table.add_row(Text("frame", style="bold"), Text(), _bare(frame.get("rmse")), *cells, _time(results.frame.time_ms))
+    table.add_row(
+        Text("frame", style="bold"), Text(), bare(frame.get("rmse")), *cells, milliseconds(results.frame.time_ms)
+    )
     unit = next((m["rmse"].unit for m in _all_metrics(results) if "rmse" in m and m["rmse"].unit), "")
     table.caption = Text(f"RMSE in {unit}, of code values 0…1 for tone and encode" if unit else "", justify="left")
     return table
@@ -100,7 +108,7 @@ def comparison_table(results: Results) -> Table:
 def _percent(share: Measurement | None) -> Text:
     """A share in percent; what two decimals do not show is 0."""
     ends = [] if share is None else [abs(x) for x in (share.value, share.low, share.high) if x is not None]
-    return _bare(Measurement(0.0) if ends and max(ends) < _LEAST_PERCENT else share)
+    return bare(Measurement(0.0) if ends and max(ends) < _LEAST_PERCENT else share)
 
 
 def _shares(results: Results) -> dict[str, Measurement]:
@@ -119,7 +127,7 @@ def _tails(results: Results) -> list[Text]:
     """The frame's percentiles and worst tiles, which a mean would drown."""
     found = {label(name): beside_the_mean(name, results.frame.metrics) for name in TAILS}
     line = "; ".join(f"{name} {tail}" for name, tail in found.items() if tail)
-    return [_reason("frame, beside the mean", line)] if line else []
+    return [reason("frame, beside the mean", line)] if line else []
 
 
 def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
@@ -127,19 +135,14 @@ def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
     fixes = [item for item in fix_first(results, attribution, metric) if item.verdict == "fix"]
     named = [f"{item.player.name} {show_measurement(item.removed)}" for item in fixes[:_MOST_FIXES]]
     what = ", ".join(named) or "nothing stands out of the noise"
-    return _reason(f"fix first ({error_phrase(metric)} removed)", what)
+    return reason(f"fix first ({error_phrase(metric)} removed)", what)
 
 
 def _object(worst: ObjectError) -> Text:
     share = show_measurement(in_percent(worst.share))
-    material = f" ({_printable(worst.material)})" if worst.material else ""
-    what = f"{_printable(worst.name)}{material} holds {share} of the squared error, on {worst.pixels:,} pixels"
-    return _reason("largest error", what)
-
-
-def _printable(name: str) -> str:
-    """`name` without what would steer the terminal: an object is called as its scene file pleases."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
+    material = f" ({printable(worst.material)})" if worst.material else ""
+    what = f"{printable(worst.name)}{material} holds {share} of the squared error, on {worst.pixels:,} pixels"
+    return reason("largest error", what)
 
 
 def metric_table(metrics: dict[str, Measurement]) -> Table:
@@ -153,7 +156,7 @@ def metric_table(metrics: dict[str, Measurement]) -> Table:
     table.add_column("value", justify="right")
     table.add_column("how", style="dim")
     for name in in_order(metrics):
-        table.add_row(Text(label(name)), _full(metrics[name]), Text(metrics[name].how))
+        table.add_row(Text(label(name)), full(metrics[name]), Text(metrics[name].how))
     return table
 
 
@@ -174,42 +177,3 @@ def _nonfinite(results: Results) -> str:
             places = ", ".join(f"({x}, {y})" for x, y in bad.where.get(name, ())[:3])
             parts.append(f"{name} {count}" + (f" at {places}" if places else ""))
     return "✕ pixels that are not finite: " + "; ".join(parts)
-
-
-def _full(measurement: Measurement | None) -> Text:
-    from rich.text import Text
-
-    if measurement is None:
-        return Text("–", style="dim")
-    if math.isnan(measurement.value):  # an infinite PSNR is a perfect one
-        return Text(f"✕ {show_measurement(measurement)}", style="bold red")
-    return Text(show_measurement(measurement))
-
-
-def _bare(measurement: Measurement | None) -> Text:
-    """The same without its unit, which the caption names."""
-    return _full(None if measurement is None else replace(measurement, unit=""))
-
-
-def _number(measurement: Measurement | None) -> Text:
-    from rich.text import Text
-
-    if measurement is None:
-        return Text("–", style="dim")
-    failed = math.isnan(measurement.value)
-    return Text(("✕ " if failed else "") + show_value(measurement), style="bold red" if failed else "")
-
-
-def _time(timing: Timing | None) -> Text:
-    from rich.text import Text
-
-    if timing is None:
-        return Text("–", style="dim")
-    measured = Measurement(timing.median, timing.median - timing.mad, timing.median + timing.mad)
-    return Text(" ".join(part for part in (show_value(measured), show_interval(measured)) if part))
-
-
-def _reason(kind: str, what: str, why: str = "") -> Text:
-    from rich.text import Text
-
-    return Text.assemble((f"{kind}: ", "dim"), what, (f": {why}" if why else "", "dim"))

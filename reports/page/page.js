@@ -102,6 +102,9 @@ function bindRows(viewer) {
     if (jump) byId('viewer').scrollIntoView({ block: 'start', behavior: 'auto' });
   };
   for (const card of document.querySelectorAll('.card')) card.addEventListener('click', () => open(card.dataset.pair, false));
+  for (const engine of document.querySelectorAll('.strip button')) {
+    engine.addEventListener('click', () => open(engine.dataset.pair, true, engine.dataset.map));
+  }
   for (const row of document.querySelectorAll('tr[data-pair]')) {
     row.addEventListener('click', (event) => { if (!event.target.closest('.term')) open(row.dataset.pair, true, row.dataset.map); });
   }

@@ -321,6 +321,25 @@ def make_candidates() -> tuple[Candidate, ...]:
     )
 
 
+def make_candidate_pairs(size: int = 96) -> list[Pair]:
+    """Pictures to go with `make_candidates`: our frame, two engines' (one with a mask), and one engine's two layers."""
+    frame = make_pairs(size)[0]
+    rough, exact = ball(size, 0.0), ball(size, 0.22)
+    mask = np.ones((size, size), bool)
+    mask[: size // 8, size // 2 :] = False
+    engines = (("our <engine> & co", np.roll(frame.truth, size // 24, axis=1), mask), ("slow", 1.1 * frame.truth, None))
+    pairs = [frame]
+    for name, tested, judged in engines:
+        flip = np.clip(np.abs(np.log2((tested + 0.05) / (frame.truth + 0.05))).mean(axis=2) / 2, 0, 1)
+        errors = (flip_error(flip), rms_error(tested, frame.truth, RADIANCE))
+        pairs.append(Pair(name, name, (), tested, frame.truth, errors, unit=RADIANCE, mask=judged))
+    for layer, term in (("direct", "direct"), ("visibility.0", "visibility")):
+        tested, truth = rough[term].astype(np.float32), exact[term].astype(np.float32)
+        name = f"our <engine> & co {layer}"
+        pairs.append(Pair(name, name, (term,), tested, truth, (rms_error(tested, truth, RADIANCE),)))
+    return pairs
+
+
 def make_failed() -> tuple[FailedCandidate, ...]:
     """An engine that gave nothing."""
     return (FailedCandidate("broken", "it ended with exit code 1; its last output: no display"),)

@@ -14,9 +14,8 @@ from lightmeter.reports.html import render_report, write_report
 from lightmeter.reports.results import Attribution, Frame, ObjectError, Player, Results
 
 from .chromium_pipe import Page, find_chromium, open_chromium
+from .report_page import SHOWN, click, open_report
 from .synthetic_pairs import make_pairs, make_results, narkowicz_curve
-
-SHOWN = "document.querySelector('#viewer').dataset.shown === '{}'"
 
 needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
 
@@ -69,13 +68,6 @@ def canvas_pixel(page: Page, pane: str, x: float, y: float) -> list[int]:
             return [data[0], data[1], data[2]];
         }})()"""
     )
-
-
-def open_report(page: Page, path: Path, first: str = "frame", fragment: str = "") -> None:
-    page.send("Page.navigate", url="about:blank")
-    page.until("location.href === 'about:blank'")
-    page.open(path, fragment)
-    page.until(f"document.querySelector('#viewer') && {SHOWN.format(first)}")
 
 
 @needs_chromium
@@ -164,16 +156,6 @@ def test_a_row_opens_its_effect_and_the_keyboard_reads_pixels(page: Page, tmp_pa
 
 
 PANELS = "[...document.querySelectorAll('.panel')].filter(p => p.checkVisibility()).map(p => p.dataset.metric)"
-
-
-def click(page: Page, selector: str) -> None:
-    """A real click in the middle of what the selector finds."""
-    place = page.evaluate(
-        f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect();"
-        f"return [b.left + b.width / 2, b.top + b.height / 2]; }})(document.querySelector({selector!r}))"
-    )
-    page.mouse("mousePressed", *place, button="left", clickCount=1)
-    page.mouse("mouseReleased", *place, button="left", clickCount=1)
 
 
 @needs_chromium
