@@ -37,7 +37,8 @@ vec3 reflectance_f90(float metallic, float specular) {
     return vec3(mix(specular, 1.0, metallic));
 }
 
-// f(v, l)·(n·l), 1/sr.
+// f(v, l)·(n·l), 1/sr. A whole dielectric is mixed with a whole metal: what dims the diffuse part is the dielectric's
+// Fresnel reflectance alone.
 vec3 gltf_brdf(vec3 base_color, float metallic, float roughness, float specular, vec3 n, vec3 v, vec3 l) {
     float n_dot_v = dot(n, v);
     float n_dot_l = dot(n, l);
@@ -50,5 +51,6 @@ vec3 gltf_brdf(vec3 base_color, float metallic, float roughness, float specular,
     float visible = v_smith_ggx_correlated(max(n_dot_v, 1e-7), max(n_dot_l, 1e-7), alpha);
     vec3 fresnel = f_schlick(dot(v, h), reflectance_f0(base_color, metallic, specular),
                              reflectance_f90(metallic, specular));
-    return ((1.0 - fresnel) * diffuse_color(base_color, metallic) * (1.0 / PI) + fresnel * (d * visible)) * n_dot_l;
+    vec3 above = f_schlick(dot(v, h), vec3(0.04 * specular), vec3(specular));
+    return ((1.0 - above) * diffuse_color(base_color, metallic) * (1.0 / PI) + fresnel * (d * visible)) * n_dot_l;
 }

@@ -1,7 +1,10 @@
 """glTF 2.0's metallic-roughness material (specification, Appendix B), the one both sides mean.
 
-f = (1 − F)·c_diff/π + F·D·V with c_diff = base·(1 − metallic), F0 = mix(0.04·specular, base, metallic) and
-F90 = mix(specular, 1, metallic) (KHR_materials_specular). `specular` = 0 makes a dielectric Lambert's.
+f = mix(dielectric, metal, metallic) with dielectric = (1 − F_d)·base/π + F_d·D·V, F_d from F0 = 0.04·specular to
+F90 = specular (KHR_materials_specular), and metal = F_m·D·V, F_m from base to 1. Schlick's F is linear in F0 and F90, so
+that f = (1 − F_d)·c_diff/π + F·D·V with c_diff = base·(1 − metallic) and F of the mixed F0 and F90. `specular` = 0 makes
+a dielectric Lambert's. The sample code that the specification had until 2024 dimmed the diffuse part by the mixed F, which
+is another material between 0 and 1 (KhronosGroup/glTF, issue 2386).
 
 One rule for back-facing directions: light is reflected only between directions on the shading normal's side of the
 surface, n·v > 0 and n·l > 0, else f = 0. `double_sided` turns the normal to the viewer's side first.
@@ -59,7 +62,8 @@ def evaluate(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # no
     d = microfacet.d_ggx(n_dot_h, xp.dot(n_cross_h, n_cross_h), point.alpha)
     visible = microfacet.v_smith_ggx_correlated(xp.maximum(n_dot_v, 1e-7), xp.maximum(n_dot_l, 1e-7), point.alpha)
     fresnel = microfacet.f_schlick(v_dot_h, point.f0, point.f90)
-    value = ((1 - fresnel) * point.diffuse * (1 / PI) + fresnel * (d * visible)) * n_dot_l
+    above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
+    value = ((1 - above) * point.diffuse * (1 / PI) + fresnel * (d * visible)) * n_dot_l
     return xp.where(lit, value, 0 * value)
 
 

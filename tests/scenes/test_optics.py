@@ -217,3 +217,17 @@ def test_bases_are_right_handed_and_orthonormal():
     s, t = frames.basis(n, stack)
     assert np.allclose(np.cross(s, t, axis=0), n)
     assert np.allclose([np.sum(s * n, axis=0), np.sum(t * n, axis=0), np.sum(s * t, axis=0)], 0, atol=1e-12)
+
+
+def test_metalness_mixes_a_whole_dielectric_with_a_whole_metal():
+    """glTF 2.0, Appendix B.2: f(m) = (1 − m)·f(0) + m·f(1), for every pair of directions."""
+    rng = np.random.default_rng(4)
+    n, v, light = (d / np.linalg.norm(d, axis=0) for d in rng.normal(size=(3, 3, 500)))
+    base, metallic, roughness, specular = rng.random((3, 500)), rng.random(500), rng.random(500), rng.random(500)
+
+    def value(m):
+        return material.evaluate(material.MaterialPoint(base, m, roughness, specular), n, v, light)
+
+    mixed = (1 - metallic) * value(np.zeros(500)) + metallic * value(np.ones(500))
+    assert (mixed > 0).any()
+    np.testing.assert_allclose(value(metallic), mixed, rtol=1e-12)

@@ -11,11 +11,12 @@ vec2 environment_brdf(float roughness, float n_dot_v) {
     return vec2(-1.04, 1.04) * a004 + r.zw;
 }
 
-// The share of light from everywhere that is reflected; what the mirror lobe takes the base does not get.
+// The share of light from everywhere that is reflected; what a dielectric mirrors its base does not get.
 vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float specular, float n_dot_v) {
     vec2 brdf = environment_brdf(roughness, n_dot_v);
     vec3 mirrored = reflectance_f0(base_color, metallic, specular) * brdf.x + reflectance_f90(metallic, specular) * brdf.y;
-    return mirrored + (1.0 - mirrored) * diffuse_color(base_color, metallic);
+    float above = specular * (0.04 * brdf.x + brdf.y);
+    return mirrored + (1.0 - above) * diffuse_color(base_color, metallic);
 }
 
 vec3 environment(Surface surface) {

@@ -21,7 +21,7 @@ def ambient_albedo(
     material = point(base_color, metallic, roughness, specular)
     scale, bias = environment_brdf(roughness, n_dot_v)
     mirrored = material.f0 * scale + material.f90 * bias
-    return mirrored + (1 - mirrored) * material.diffuse
+    return mirrored + (1 - specular * (0.04 * scale + bias)) * material.diffuse
 
 
 BRDF_ROUNDINGS = 2 + 1 + 3 + 6 + 2 + 2
