@@ -16,7 +16,9 @@ import OpenEXR
 import pytest
 
 from lightmeter.candidates.side_file import SideFile, read_side_file
+from lightmeter.cli import main
 from lightmeter.exporting import export
+from lightmeter.reports.results_json import from_json
 from lightmeter.scenes import shapes
 from lightmeter.scenes.framing import look_at
 from lightmeter.scenes.load import load
@@ -194,3 +196,27 @@ def _distances(centres: np.ndarray, origins: np.ndarray, directions: np.ndarray)
     """(…, N) metres between N centres and lines."""
     unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     return np.linalg.norm(np.cross(centres - np.asarray(origins)[..., None, :], unit[..., None, :]), axis=-1)
+
+
+def test_the_whole_path_from_the_command_line(engine, tmp_path, monkeypatch):
+    """`lightmeter compare` gives the engine the scene, registers its frame without a complaint, and measures it.
+
+    VTK and three.js shade nearly as we do, but for what fills shadows: the means are within a fifth of each other, and a
+    factor of π, or of 1/2.2 in the exponent, is not.
+    """
+    monkeypatch.setenv("LIGHTMETER_STORE", str(tmp_path / "store"))
+    script = EXAMPLES / engine / "render.py"
+    command = f"{engine}={sys.executable} {script} {{gltf}} {{camera_json}} {{w}} {{h}} {{exr}}"
+    words = ["compare", "grid-sun", "--size", "160x120", "--spp", "16", "--no-shares", "-o", str(tmp_path / "out")]
+    assert main([*words, "--candidate-command", command]) == 0
+    results = from_json((tmp_path / "out" / "results.json").read_text())
+    _, theirs = results.candidates
+    assert theirs.name == engine
+    assert theirs.findings == ()
+    assert theirs.nonfinite == 0
+    assert not theirs.time_whole and theirs.time_ms is not None and theirs.time_ms.frames >= 20
+    assert abs(theirs.metrics["relative_bias"].value) < 0.2
+    assert {layer.layer for layer in theirs.layers} >= {"depth"}
+    [depth] = [layer for layer in theirs.layers if layer.layer == "depth"]
+    # Silhouettes fall to either side in a pixel in a hundred; all else is the same surface.
+    assert depth.metrics["p50"].value < 1e-3
