@@ -201,8 +201,8 @@ def _distances(centres: np.ndarray, origins: np.ndarray, directions: np.ndarray)
 def test_the_whole_path_from_the_command_line(engine, tmp_path, monkeypatch):
     """`lightmeter compare` gives the engine the scene, registers its frame without a complaint, and measures it.
 
-    VTK and three.js shade nearly as we do, but for what fills shadows: the means are within a fifth of each other, and a
-    factor of π, or of 1/2.2 in the exponent, is not.
+    VTK and three.js shade nearly as we do, but for what fills shadows: the means are within a fifth of each other. A
+    factor of π, or an exponent of 1/2.2, is not.
     """
     monkeypatch.setenv("LIGHTMETER_STORE", str(tmp_path / "store"))
     script = EXAMPLES / engine / "render.py"
