@@ -6,7 +6,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
+from pathlib import Path
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
@@ -22,7 +24,7 @@ FLAGS = (
     "--no-pings",
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
-GRACE = 1.5  # seconds to end by itself
+GRACE = 1.0  # seconds to end by itself
 SHOWN = 2000  # characters of what it said
 
 
@@ -33,10 +35,7 @@ def open_page(url: str) -> Iterator[subprocess.Popen]:
     if program is None:
         raise SystemExit(f"no browser found: install one of {', '.join(NAMES)} (Debian: apt-get install chromium)")
     flags = [*FLAGS, "--no-sandbox"] if os.geteuid() == 0 else FLAGS  # root cannot have the sandbox
-    with (
-        tempfile.TemporaryDirectory(prefix="three-", ignore_cleanup_errors=True) as profile,
-        tempfile.TemporaryFile() as log,
-    ):
+    with _fresh_folder() as profile, tempfile.TemporaryFile() as log:
         words = [program, *flags, f"--user-data-dir={profile}", url]
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
         try:
@@ -52,3 +51,15 @@ def open_page(url: str) -> Iterator[subprocess.Popen]:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+
+
+@contextlib.contextmanager
+def _fresh_folder() -> Iterator[Path]:
+    """A folder that is removed afterwards; children of an ended browser write there for a moment longer."""
+    folder = Path(tempfile.mkdtemp(prefix="three-"))
+    try:
+        yield folder
+    finally:
+        end = time.monotonic() + GRACE
+        while folder.exists() and time.monotonic() < end:
+            shutil.rmtree(folder, ignore_errors=True)

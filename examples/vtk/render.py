@@ -25,6 +25,7 @@ STEEPEST = 88.0
 """VTK's shadow maps hold exp(c · depth), depth from 0 to 1. At the largest c whose exponential float32 can hold (88.7)
 they come nearest to a comparison of depths; VTK's own c = 11 lets light through close to what throws the shadow."""
 GAMMA = 2.2  # VTK's PBR shaders end in pow(colour, 1/2.2), whatever the target
+GL_BLEND = 0x0BE2  # OpenGL's number for it
 WARM_UP, FRAMES = 5, 20
 NOTES = [
     "one sample a pixel, at its centre; no ambient occlusion, no light from other surfaces",
@@ -55,19 +56,22 @@ def look(renderer: vtk.vtkRenderer, camera: dict) -> None:
     made.SetClippingRange(camera["near"], camera["far"])
 
 
-def keep_light_cameras_square(renderer: vtk.vtkRenderer) -> None:
-    """Have shadow maps drawn with the aspect that they are looked up with, 1; VTK draws them with the window's.
+def mend_shadow_maps(renderer: vtk.vtkRenderer) -> None:
+    """Have shadow maps drawn with the aspect that they are looked up with, and without blending.
 
-    The viewer's camera, and the copies that VTK makes of it, state their aspect; one that does not is a light's.
+    VTK draws them with the window's aspect and looks them up with 1. The viewer's camera, and the copies that VTK makes
+    of it, state their aspect; one that does not is a light's. And it blends: where alpha is 1 but for rounding, a
+    surface far behind still counts, since its exp(c · depth) is larger by many powers of ten.
     """
 
-    def keep_square(*_) -> None:
+    def mend(*_) -> None:
         active = renderer.GetActiveCamera()
         if not active.GetUseExplicitAspectRatio():
             active.UseExplicitAspectRatioOn()
             active.SetExplicitAspectRatio(1.0)
+        renderer.GetRenderWindow().GetState().vtkglDisable(GL_BLEND)
 
-    renderer.AddObserver(vtk.vtkCommand.ActiveCameraEvent, keep_square)
+    renderer.AddObserver(vtk.vtkCommand.ActiveCameraEvent, mend)
 
 
 def shadowed() -> vtk.vtkFramebufferPass:
@@ -139,7 +143,7 @@ def build(gltf: Path, document: dict, told: dict, size: tuple[int, int]) -> tupl
     lights = [light(one) for one in told["lights"] if one["kind"] != "area"]
     for one in lights or [nothing()]:
         renderer.AddLight(one)
-    keep_light_cameras_square(renderer)
+    mend_shadow_maps(renderer)
     if told["environment"]:
         around = surroundings(gltf.parent / told["environment"]["file"])
         renderer.UseImageBasedLightingOn()
