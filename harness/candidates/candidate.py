@@ -18,8 +18,8 @@ DEFAULT_TIMEOUT = 600.0
 OWN, FRAME = "lightmeter", "frame"
 """The names of our own renderer and of its frame's pictures, which no candidate can have."""
 
-FAULTS = ("flip", "shift", "field_of_view", "transfer", "exposure", "alpha", "background")
-"""What registration looks for, and can be asked to correct."""
+CORRECTABLE = ("flip", "shift", "field_of_view", "transfer", "exposure", "alpha")
+"""What registration finds and can be asked to correct. It finds a missing background too, which nothing brings back."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from lightmeter.candidates.candidate import DEFAULT_TIMEOUT, Candidate, Transfer
 from lightmeter.scenes.validation import Strict
 
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=1000)]
-FaultName = Literal["flip", "shift", "field_of_view", "transfer", "exposure", "alpha", "background"]
+FaultName = Literal["flip", "shift", "field_of_view", "transfer", "exposure", "alpha"]
 
 
 class UnsupportedEntry(Strict):

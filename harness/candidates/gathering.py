@@ -15,8 +15,10 @@ from lightmeter.candidates.obtaining import Job, check, obtain
 from lightmeter.exporting import export
 from lightmeter.failures import UsageError
 from lightmeter.progress import Report, silent
+from lightmeter.realtime.discovery import effects
 from lightmeter.reports.results import FailedCandidate
 from lightmeter.scenes.model import Scene
+from lightmeter.scenes.terms import TERMS
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +39,7 @@ def check_all(candidates: Sequence[Candidate]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise UsageError(f"two candidates are called {name!r}; name them apart, as in --candidate NAME=FILE")
-        if name in (OWN, FRAME):
+        if name in {OWN, FRAME, *effects(), *TERMS}:
             raise UsageError(f"a candidate cannot be called {name!r}, which is lightmeter's own; name it otherwise")
     for candidate in candidates:
         check(candidate)

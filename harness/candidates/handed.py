@@ -19,6 +19,9 @@ from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
 
 Display = Callable[[np.ndarray], np.ndarray]
 
+MOST_NAMED = 4
+"""Layers that a note lists."""
+
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -83,7 +86,8 @@ def take(candidate: Candidate, files: Files, size: tuple[int, int], exposure: fl
     theirs = said.unsupported
     notes = [*said.notes]
     if others:
-        notes.append(f"Layers that have no documented name are not read: {', '.join(others)}.")
+        more = f" and {len(others) - MOST_NAMED} more" if len(others) > MOST_NAMED else ""
+        notes.append(f"Layers that have no documented name are not read: {', '.join(others[:MOST_NAMED])}{more}.")
     if shown is not None:
         notes.append(
             f"A display image ({TRANSFERS[transfer]}): only display metrics speak of it, with the truth put through "

@@ -121,16 +121,19 @@ def judge(scene: Scene, shapes: np.ndarray, reference: np.ndarray, handed: Seque
     Raises:
         UsageError: no pixel is left.
     """
+    seen = [register(one, reference, shapes < 0) for one in handed]
     masked = [left_out(scene, shapes, one) for one in handed]
+    for reasons, registered in zip(masked, seen, strict=True):
+        if registered.outside.any():
+            reasons["outside of the frame, once it was moved"] = registered.outside
     away = [pixels for reasons in masked for pixels in reasons.values()]
     mask = ~np.any(away, axis=0) if away else None
     if mask is not None and not mask.any():
         raise UsageError("every pixel is left out by what the candidates do not support: there is nothing to compare")
-    found = []
-    for one, reasons in zip(handed, masked, strict=True):
-        image, findings = register(one, reference, shapes < 0)
-        found.append(Judged(one, image, reasons, findings, mask))
-    return tuple(found)
+    return tuple(
+        Judged(one, registered.image, reasons, registered.findings, mask)
+        for one, registered, reasons in zip(handed, seen, masked, strict=True)
+    )
 
 
 def own_result(

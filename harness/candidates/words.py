@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from lightmeter import options
-from lightmeter.candidates.candidate import DEFAULT_TIMEOUT, FAULTS, FRAME, OWN, TRANSFERS, Candidate, Unsupported
+from lightmeter.candidates.candidate import CORRECTABLE, DEFAULT_TIMEOUT, FRAME, OWN, TRANSFERS, Candidate, Unsupported
 from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
 
@@ -43,7 +43,7 @@ def add_candidates(parser: argparse.ArgumentParser) -> None:
         "--timeout", type=options.number, metavar="S", help=f"seconds for a command (default {DEFAULT_TIMEOUT:g})"
     )
     group.add_argument(
-        "--register", metavar="FAULT,…", default="", help=f"correct these before measuring: {', '.join(FAULTS)}"
+        "--register", metavar="FAULT,…", default="", help=f"correct these before measuring: {', '.join(CORRECTABLE)}"
     )
     group.add_argument("--no-background", action="store_true", help="leave out pixels that see no surface")
 
@@ -137,8 +137,10 @@ def _with_options(candidate: Candidate, args: argparse.Namespace) -> Candidate:
         candidate = replace(candidate, timeout=args.timeout)
     faults = options.names(args.register)
     for fault in faults:
-        if fault not in FAULTS:
-            raise UsageError(f"--register: there is no fault {fault!r}; {nearest(fault, FAULTS)}")
+        if fault == "background":
+            raise UsageError("--register: a missing background cannot be made up; leave it out with --no-background")
+        if fault not in CORRECTABLE:
+            raise UsageError(f"--register: there is no fault {fault!r} to correct; {nearest(fault, CORRECTABLE)}")
     if faults:
         candidate = replace(candidate, register=faults)
     if args.no_background:

@@ -1,10 +1,10 @@
 """glTF 2.0's metallic-roughness material (specification, Appendix B), the one both sides mean.
 
 f = mix(dielectric, metal, metallic) with dielectric = (1 − F_d)·base/π + F_d·D·V, F_d from F0 = 0.04·specular to
-F90 = specular (KHR_materials_specular), and metal = F_m·D·V, F_m from base to 1. Schlick's F is linear in F0 and F90, so
-that f = (1 − F_d)·c_diff/π + F·D·V with c_diff = base·(1 − metallic) and F of the mixed F0 and F90. `specular` = 0 makes
-a dielectric Lambert's. The sample code that the specification had until 2024 dimmed the diffuse part by the mixed F, which
-is another material between 0 and 1 (KhronosGroup/glTF, issue 2386).
+F90 = specular (KHR_materials_specular), and metal = F_m·D·V, F_m from base to 1. Schlick's F is linear in F0 and F90,
+so that f = (1 − F_d)·c_diff/π + F·D·V with c_diff = base·(1 − metallic) and F of the mixed F0 and F90. `specular` = 0
+makes a dielectric Lambert's. The sample code that the specification had until 2024 dimmed the diffuse part by the mixed
+F, which is another material between 0 and 1 (KhronosGroup/glTF, issue 2386).
 
 One rule for back-facing directions: light is reflected only between directions on the shading normal's side of the
 surface, n·v > 0 and n·l > 0, else f = 0. `double_sided` turns the normal to the viewer's side first.

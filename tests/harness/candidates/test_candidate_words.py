@@ -57,6 +57,8 @@ def test_a_described_candidate_is_taken_by_its_name():
         (("--candidate-command", "x=engine 'oops"), "cannot be split"),
         (("--candidate-command", "x= "), "expected a command"),
         (("--candidate", "a=frame.exr", "--register", "exposur"), "did you mean 'exposure'"),
+        (("--candidate", "a=frame.exr", "--register", "background"), "--no-background"),
+        (("--candidate", "srgb=frame.exr"), "cannot be called 'srgb'"),
         (("--candidate", "a=frame.exr", "--transfer", "sRGB"), "srgb"),
         (("--register", "exposure"), "no candidate"),
         (("--candidate", "a=frame.exr", "--timeout", "-1"), "--timeout"),

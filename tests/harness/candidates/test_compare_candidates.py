@@ -168,3 +168,18 @@ def test_a_display_image_gets_display_metrics_alone(run, tmp_path):
     one = found(tmp_path)["candidates"][1]
     assert "flip" in one["metrics"]
     assert "rmse" not in one["metrics"]
+
+
+def test_a_fault_is_named_and_corrected_only_when_asked(run, tmp_path):
+    """A frame mirrored left to right, of a scene that is not its own mirror image."""
+    size = ("--size", "64x64", "--spp", "8")
+    image = own_renderer("torus", (64, 64)).render().radiance
+    write_exr(tmp_path / "mirrored.exr", image[:, ::-1])
+    for register, corrected in ((), False), (("--register", "flip"), True):
+        words = ("-o", "out", "--no-shares", "--candidate", "mirrored.exr", *register)
+        ran = run("compare", "torus", *size, *words)
+        assert ran.code == 0, ran.err
+        ours, theirs = found(tmp_path)["candidates"]
+        assert [(one["fault"], one["corrected"]) for one in theirs["findings"]] == [("flip", corrected)]
+        assert (theirs["metrics"]["rmse"] == ours["metrics"]["rmse"]) == corrected
+        assert "mirrored" in ran.out
