@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lightmeter.groundtruth import rays
+from lightmeter.groundtruth.heuristic import power_heuristic
 from lightmeter.groundtruth.incident import incident
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.vertex import Vertex, Vertices
@@ -106,7 +107,7 @@ def _towards_light(world: World, light: AreaLight, vertex: Vertex, lanes: Lanes)
     ray = it.spawn_ray_to(ds.p)
     if not world.is_flat(light):
         active &= rays.clear(world, ray, active, scene=world.alone(light))
-    value = value * radiance * _power_heuristic(ds.pdf, density)
+    value = value * radiance * power_heuristic(ds.pdf, density)
     return dr.select(active, value, 0), ds.d, ray, active
 
 
@@ -119,10 +120,5 @@ def _towards_lobe(world: World, light: AreaLight, vertex: Vertex, lanes: Lanes):
     active = (density > 0) & hit.is_valid()
     ds = mi.DirectionSample3f(alone, hit, it)
     light_density = emitter.pdf_direction(it, ds, active)
-    value = weight * emitter.eval(hit, active) * _power_heuristic(density, light_density)
+    value = weight * emitter.eval(hit, active) * power_heuristic(density, light_density)
     return dr.select(active, value, 0), direction, it.spawn_ray_to(hit.p), active
-
-
-def _power_heuristic(a, b):
-    ratio = b / dr.maximum(a, 1e-30)
-    return dr.select(a > 0, 1 / (1 + ratio * ratio), 0)

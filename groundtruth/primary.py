@@ -8,6 +8,7 @@ from lightmeter.groundtruth.oracles import material
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.wavefront import Lanes, average
 from lightmeter.groundtruth.world import World
+from lightmeter.scenes.optics import environment
 from lightmeter.scenes.points import SurfacePoints
 
 
@@ -32,6 +33,9 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
     view = -ray.d
     dr.eval(hit.p, view, shape, triangle)
     zero, black = np.zeros((height, width), np.float32), np.zeros((height, width, 3), np.float32)
+    towards = np.broadcast_to(ray.d.numpy().T, (height * width, 3)).astype(np.float64)
+    around = world.scene.environment
+    sky = black if around is None else environment.radiance(around, towards.T).T.reshape(height, width, 3)
     bare = SurfacePoints(
         position=hit.p.numpy().T.reshape(height, width, 3),
         normal=black,
@@ -41,7 +45,7 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
         roughness=zero,
         specular=zero,
         occlusion=zero,
-        emission=black,
+        emission=sky.astype(np.float32),
         shape=shape.numpy().reshape(height, width),
         triangle=triangle.numpy().reshape(height, width),
     )

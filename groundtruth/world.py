@@ -7,6 +7,7 @@ import numpy as np
 from lightmeter.groundtruth import emitters, tables
 from lightmeter.groundtruth.bsdf import MASK, SceneBSDF, kind
 from lightmeter.groundtruth.emitters import SurfaceEmitter
+from lightmeter.groundtruth.environment_map import MapEmitter
 from lightmeter.groundtruth.surface import ALL_SLOTS
 from lightmeter.groundtruth.tables import Tables
 from lightmeter.groundtruth.variant import dr, mi
@@ -24,6 +25,7 @@ class World:
         scene: what it was made from.
         mitsuba: the `mi.Scene`.
         meshes: one `mi.Mesh` per shape, None where a shape has no triangles.
+        around: the emitter of the environment, None where there is none.
         tables: the surfaces' attributes.
         masked: whether any material has an alpha mask.
         slots: texture slots (and "color") that any shape uses.
@@ -32,6 +34,7 @@ class World:
     scene: Scene
     mitsuba: object
     meshes: tuple
+    around: object
     tables: Tables
     masked: bool
     slots: frozenset[str]
@@ -60,8 +63,9 @@ class World:
                 lamp.bind(table, index)
         parts = {f"shape{i}": mesh for i, mesh in enumerate(meshes) if mesh is not None}
         parts |= {f"light{i}": emitters.punctual(light) for i, light in enumerate(scene.lights)}
-        if scene.environment is not None:
-            parts["environment"] = emitters.constant(scene.environment.radiance)
+        around = None if scene.environment is None else _surroundings(scene)
+        if around is not None:
+            parts["environment"] = around
         used = {slot for shape in scene.shapes for slot in shape.material.textures}
         if any(shape.mesh.colors is not None for shape in scene.shapes):
             used.add("color")
@@ -69,6 +73,7 @@ class World:
             scene,
             mi.load_dict({"type": "scene", **parts}, optimize=False),
             meshes,
+            around,
             table,
             any(MASK in k for k in bsdfs),
             frozenset(used) & ALL_SLOTS,
@@ -98,6 +103,15 @@ class World:
         positions = self.scene.shapes[light.shape].world.positions.astype(np.float64)
         spread = np.linalg.svd(positions - positions.mean(axis=0), compute_uv=False)
         return len(spread) < 3 or bool(spread[2] <= 1e-6 * spread[0])
+
+
+def _surroundings(scene: Scene):
+    """The emitter of the scene's environment."""
+    assert scene.environment is not None, "asked only where there is one"
+    if scene.environment.map is None:
+        return emitters.constant(scene.environment.radiance)
+    corners = np.abs(np.stack([*scene.bounds, scene.camera.position]))
+    return MapEmitter(scene.environment, float(np.linalg.norm(corners.max(axis=0))) + 1.0)
 
 
 def _mesh(shape: Shape, bsdf, emitter):

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from lightmeter.reports.image_files import write_exr
+from lightmeter.scenes.environments import as_seen
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.export import ENVIRONMENT_FILE, camera_document, gltf_files
 from lightmeter.scenes.model import Scene
@@ -58,9 +57,7 @@ def export(scene: Scene, size: tuple[int, int], folder: Path) -> Exported:
     files.append(_write(folder / "scene.gltf", document))
     environment = None
     if scene.environment is not None:
-        width, height = ENVIRONMENT_SIZE
-        radiance = np.broadcast_to(np.float32(scene.environment.radiance), (height, width, 3))
-        environment = write_exr(folder / ENVIRONMENT_FILE, radiance)
+        environment = write_exr(folder / ENVIRONMENT_FILE, as_seen(scene.environment, ENVIRONMENT_SIZE))
         files.append(environment)
     files.append(_write(folder / "camera.json", camera))
     return Exported(folder, folder / "scene.gltf", files[-1], environment, tuple(files), made.notes)

@@ -12,7 +12,7 @@ KNOWN = (
     ("lightmeter.groundtruth.variant", "NoRendererError"),
     ("lightmeter.groundtruth.folder", "ReferenceFolderError"),
     ("lightmeter.metrics.input_error", "InputError"),
-    ("lightmeter.reports.image_error", "ImageError"),
+    ("lightmeter.scenes.image_files.image_error", "ImageError"),
     ("lightmeter.reports.results_json", "ResultsError"),
 )
 

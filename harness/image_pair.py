@@ -12,7 +12,7 @@ import numpy as np
 
 from lightmeter.failures import UsageError
 from lightmeter.metrics.finite import find_non_finite
-from lightmeter.reports.image_files import read_image
+from lightmeter.scenes.image_files.reading import read_image
 from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
 
 Transfer = Literal["srgb", "linear"]

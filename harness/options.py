@@ -58,6 +58,15 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help="a library name, a .toml, a .glb or .gltf file")
     parser.add_argument("--camera", metavar="NAME", help="which of a glTF file's cameras, by name or number")
     parser.add_argument("--size", metavar="WxH", default=DEFAULT_SIZE, help="in pixels (default %(default)s)")
+    parser.add_argument(
+        "--environment", metavar="FILE", help="a latitude-longitude map, .hdr or .exr, in place of the scene's own"
+    )
+    parser.add_argument(
+        "--rotate", type=number, metavar="DEG", default=0.0, help="turn it about +Y, anticlockwise from above"
+    )
+    parser.add_argument(
+        "--environment-clamp", action="store_true", help="mend texels that are negative or not finite, and say so"
+    )
 
 
 def add_budget(parser: argparse.ArgumentParser) -> None:
@@ -118,6 +127,34 @@ def size(text: str, what: str = "--size") -> tuple[int, int]:
     if not match or not all(1 <= int(n) <= 16384 for n in match.groups()):
         raise UsageError(f"{what}: expected WxH with 1 to 16384 pixels a side, such as 512x512, got {text!r}")
     return int(match[1]), int(match[2])
+
+
+def scene(args: argparse.Namespace):
+    """The scene that is asked for, in the environment that is asked for.
+
+    Raises:
+        SceneError: there is no such scene, or its file or the environment's is wrong.
+        UsageError: a rotation of nothing.
+    """
+    from dataclasses import replace
+
+    from lightmeter.scenes.load import load
+
+    found = load(args.scene, args.camera)
+    if args.environment is None:
+        if args.rotate or args.environment_clamp:
+            raise UsageError("--rotate and --environment-clamp are of the map that --environment names")
+        return found
+    from lightmeter.scenes.environments import environment_from
+    from lightmeter.scenes.framing import LIGHTS_NOTE
+
+    notes: list[str] = []
+    around = environment_from(
+        Path(args.environment), degrees=args.rotate, clamp=args.environment_clamp, note=notes.append
+    )
+    if LIGHTS_NOTE in found.notes:  # the map gives light, so that no rig is needed
+        found = replace(found, lights=(), notes=tuple(note for note in found.notes if note != LIGHTS_NOTE))
+    return replace(found, environment=around, notes=(*found.notes, *notes))
 
 
 def budget(args: argparse.Namespace) -> Budget:

@@ -117,8 +117,8 @@ class GBuffer:
         self._framebuffer = device.framebuffer(self.textures.values(), self.depth)
         # Where nothing emits, no shape writes radiance: it is cleared by itself.
         self._cleared = None if emits else device.framebuffer([radiance])
-        surrounded = scene.environment is not None and max(scene.environment.radiance) > 0
-        self._background = Background(device, scene, radiance, self.depth) if surrounded else None
+        surrounded = scene.environment is not None and scene.environment.shines
+        self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
 
@@ -144,7 +144,7 @@ class GBuffer:
             bind(draw.program, draw.textures)
             self._device.draw(draw.vertices, draw.count)
         if self._background is not None:
-            self._background.draw()
+            self._background.draw(offset)
 
     def load(self, points: SurfacePoints) -> None:
         """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""

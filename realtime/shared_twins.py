@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import frames, lights, material, microfacet
+from lightmeter.scenes.optics import environment, frames, lights, material, microfacet
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -274,5 +274,18 @@ TWINS = (
         transformed,
         roundings=3,
         why="a product and two sums",
+    ),
+    Twin(
+        "environment_map.glsl",
+        "environment_coordinates",
+        "vec2",
+        (
+            Argument("direction", "vec3", direction, ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0))),
+            Argument("rotation", "float", uniform(-4, 4), (0.0,)),
+        ),
+        lambda d, rotation: stack(*environment.coordinates(d, rotation)),
+        roundings=4096 + 4,
+        why="atan, which GLSL allows 4096 units in the last place; the sum, the product and the half, and the length",
+        cancels=1.0,
     ),
 )

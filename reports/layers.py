@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lightmeter.reports.image_error import ImageError
 from lightmeter.reports.image_files import write_channels
 from lightmeter.reports.pictures import Pair
+from lightmeter.scenes.image_files.image_error import ImageError
 
 
 def write_layers(path: str | os.PathLike[str], pairs: Iterable[Pair], metadata: dict[str, str] | None = None) -> Path:

@@ -37,7 +37,7 @@ def missing_terms(scene: Scene) -> dict[str, str]:
         missing["direct"] = missing["visibility"] = "the scene has no lights"
     elif flat:
         missing["visibility"] = alone
-    if scene.environment is None or max(scene.environment.radiance) == 0:
+    if scene.environment is None or not scene.environment.shines:
         missing["environment"] = missing["environment_visibility"] = "the scene has no environment"
     elif flat:
         missing["environment_visibility"] = alone

@@ -262,11 +262,35 @@ PunctualLight = PointLight | SpotLight | DirectionalLight
 Light = PunctualLight | AreaLight
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Environment:
-    """What surrounds the scene: a constant radiance, W/(sr·m²)."""
+    """What surrounds the scene, infinitely far away.
+
+    Attributes:
+        radiance: W/(sr·m²), RGB; multiplied with the map's texels where there is one.
+        map: latitude-longitude texels, (H, W, 3) float32, finite and not negative; None: the same everywhere. Which
+            direction a texel stands for is defined in `optics/environment.py`.
+        rotation: radians by which the map is turned about +Y, anticlockwise as seen from above.
+    """
 
     radiance: Vector
+    map: Image | None = None
+    rotation: float = 0.0
+
+    @cached_property
+    def mean(self) -> Vector:
+        """The mean radiance over all directions: of the texels, weighted with the solid angle of their rows."""
+        if self.map is None:
+            return self.radiance
+        texels = self.map.texels.astype(np.float64)
+        rows = np.sin(np.pi * (np.arange(len(texels)) + 0.5) / len(texels))
+        red, green, blue = np.average(texels.mean(axis=1), axis=0, weights=rows) * self.radiance
+        return float(red), float(green), float(blue)
+
+    @property
+    def shines(self) -> bool:
+        """Whether any light comes from it."""
+        return max(self.mean) > 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,6 @@
 """`environment`: unoccluded radiance reflected from the environment.
 
-By the optics alone, as if the point were alone in the environment. Directions are drawn from the material, which has
-no variance but the material's own for a constant environment.
+By the optics alone, as if the point were alone in the environment.
 """
 
 import numpy as np

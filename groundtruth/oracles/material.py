@@ -17,7 +17,10 @@ TERM = "material"
 
 
 def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0, batch: int = 0) -> SurfacePoints:
-    """The points with exact parameters; position, view, shape and triangle are kept. `spp` and `seed` play no part."""
+    """The points with exact parameters; `spp` and `seed` play no part.
+
+    Position, view, shape and triangle are kept, and what is seen where there is no surface.
+    """
     lead = points.shape.shape
     flat = points.at(np.ones(lead, bool))
     where = np.flatnonzero(flat.shape >= 0)
@@ -25,8 +28,7 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
         name: np.zeros(flat.shape.shape, np.float32) for name in ("metallic", "roughness", "specular", "occlusion")
     }
     vector = {name: np.zeros((*flat.shape.shape, 3), np.float32) for name in ("normal", "base_color", "emission")}
-    if world.scene.environment is not None:
-        vector["emission"][:] = world.scene.environment.radiance
+    vector["emission"][flat.shape < 0] = flat.emission[flat.shape < 0]
     if len(where):
         for name, value in _read(world, flat, where).items():
             (scalar if name in scalar else vector)[name][where] = value

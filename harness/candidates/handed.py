@@ -11,10 +11,10 @@ from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.layer_names import LAYERS, Named, find_layers
 from lightmeter.candidates.obtaining import Files
 from lightmeter.candidates.side_file import SideFile, read_side_file
-from lightmeter.reports import exr_header, exr_planes
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.image_files import read_alpha, read_image
 from lightmeter.reports.results import Timing
+from lightmeter.scenes.image_files import exr_header, exr_planes
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.reading import read_alpha, read_image
 from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
 
 Display = Callable[[np.ndarray], np.ndarray]

@@ -28,9 +28,8 @@ def run(args: argparse.Namespace) -> int:
     candidates = words.candidates(args)
     from lightmeter.groundtruth.store import Store
     from lightmeter.realtime.graph import Choice
-    from lightmeter.scenes.load import load
 
-    scene = load(args.scene, args.camera)
+    scene = options.scene(args)
     choice = Choice(chosen.only, chosen.without, chosen.use, chosen.settings)
     output = options.output_folder(args.output or f"lightmeter-out/{scene.name}")
 

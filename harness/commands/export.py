@@ -19,9 +19,8 @@ def run(args: argparse.Namespace) -> int:
     """Write the files, say which."""
     size = options.size(args.size)
     from lightmeter.exporting import export
-    from lightmeter.scenes.load import load
 
-    scene = load(args.scene, args.camera)
+    scene = options.scene(args)
     target = Path(args.output or f"lightmeter-out/{scene.name}-export")
     source = Path(args.scene)
     if source.is_file() and source.resolve().parent == target.resolve():

@@ -23,10 +23,9 @@ def run(args: argparse.Namespace) -> int:
     size, budget = options.size(args.size), options.budget(args)
     from lightmeter.groundtruth import folder as reference_folder
     from lightmeter.groundtruth.store import Store
-    from lightmeter.scenes.load import load
     from lightmeter.truth import Truth
 
-    scene = load(args.scene, args.camera)
+    scene = options.scene(args)
     target = options.output_folder(args.output or f"lightmeter-out/{scene.name}-reference")
     store = None if args.no_store else Store(say=options.say)
     with progress_bar() as report:

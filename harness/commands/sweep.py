@@ -50,10 +50,9 @@ def run(args: argparse.Namespace) -> int:
     if args.all and args.knob:
         raise UsageError("--knob: names a knob of one effect, and cannot be given with --all")
     from lightmeter.realtime.graph import Choice
-    from lightmeter.scenes.load import load
     from lightmeter.sweeping import Sweeping, plan_visits
 
-    scene = load(args.scene, args.camera)
+    scene = options.scene(args)
     choice = Choice(chosen.only, chosen.without, chosen.use, chosen.settings)
     wanted = plan_visits(scene, choice, args.effect, args.knob)
     folder = options.output_folder(args.output or f"lightmeter-out/{scene.name}-sweep")

@@ -57,7 +57,8 @@ def camera_document(scene: Scene, size: tuple[int, int]) -> dict[str, Any]:
     """
     environment = None
     if scene.environment is not None:
-        environment = {"file": ENVIRONMENT_FILE, "radiance": list(scene.environment.radiance)}
+        constant = None if scene.environment.map else list(scene.environment.radiance)
+        environment = {"file": ENVIRONMENT_FILE, "radiance": constant}
     return {
         "schema": SCHEMA,
         "scene": scene.name,

@@ -10,6 +10,7 @@ import numpy as np
 from lightmeter.scenes import framing, shapes
 from lightmeter.scenes.checks import Budget, check_shapes
 from lightmeter.scenes.dressing import dressed
+from lightmeter.scenes.environments import environment_from
 from lightmeter.scenes.errors import SceneError, nearest, shown
 from lightmeter.scenes.files import inside, read_bytes
 from lightmeter.scenes.images import read_image
@@ -69,7 +70,7 @@ class Builder:
         check_shapes(made, self.where)
         lights = [self.light(entry, index) for index, entry in enumerate(file.lights or [])]
         lights += self.brought_lights
-        environment = Environment(file.environment.radiance) if file.environment else None
+        environment = self.environment(file.environment) if file.environment else None
         camera = self.camera(file.camera, made)
         told = file.lights is not None or environment is not None
         if not told and not lights and not framing.gives_light(made):
@@ -85,6 +86,12 @@ class Builder:
             summary=file.summary,
             notes=tuple(self.notes),
         )
+
+    def environment(self, entry: entries.EnvironmentEntry) -> Environment:
+        if entry.map is None:
+            return Environment(entry.radiance)
+        path = inside(self.folder, entry.map, f"{self.where}: environment.map")
+        return environment_from(path, entry.radiance, entry.rotate, entry.clamp, self.notes.append)
 
     def camera(self, entry: entries.CameraEntry | None, made: list[Shape]) -> Camera:
         if entry is None:

@@ -142,7 +142,25 @@ class CameraEntry(Strict):
 class EnvironmentEntry(Strict):
     """What surrounds the scene."""
 
-    radiance: Radiant = Field(description="The same from every direction, W/(sr·m²).")
+    radiance: Radiant = Field(
+        (1.0, 1.0, 1.0), description="The same from every direction, W/(sr·m²); with a map a factor for its texels."
+    )
+    map: Name | None = Field(
+        None,
+        description="A latitude-longitude map beside the scene file, .hdr or .exr, or a built-in one: studio, sky.",
+    )
+    rotate: Number = Field(0.0, description="Degrees about +Y, anticlockwise as seen from above.")
+    clamp: bool = Field(
+        False, description="Negative, infinite and NaN texels become 0, the largest finite value and 0, with a note."
+    )
+
+    @model_validator(mode="after")
+    def _something(self):
+        if self.map is None and "radiance" not in self.model_fields_set:
+            raise ValueError("an environment has a radiance, a map or both")
+        if self.map is None and (self.rotate or self.clamp):
+            raise ValueError("rotate and clamp are of a map, and there is none")
+        return self
 
 
 class PointEntry(Strict):

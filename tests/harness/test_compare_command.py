@@ -44,7 +44,7 @@ def test_the_report_and_all_that_belongs_to_it_is_written(compared, tmp_path):
 
 
 def test_the_layers_hold_what_the_report_shows(compared, tmp_path):
-    from lightmeter.reports.image_files import read_image
+    from lightmeter.scenes.image_files.reading import read_image
 
     layers = tmp_path / "out" / "layers.exr"
     tested = read_image(layers, layer="frame.tested")

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from lightmeter.exporting import Exported, export
-from lightmeter.reports.image_files import read_image
 from lightmeter.scenes import library, shapes
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.export import camera_document
 from lightmeter.scenes.export.radiant import color_and_strength
 from lightmeter.scenes.framing import gives_light, look_at
+from lightmeter.scenes.image_files.reading import read_image
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import (
     Camera,

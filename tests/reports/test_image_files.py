@@ -11,9 +11,10 @@ import OpenEXR
 import pytest
 from PIL import Image
 
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.image_files import read_image, write_channels, write_exr
+from lightmeter.reports.image_files import write_channels, write_exr
 from lightmeter.reports.layers import write_layers
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.reading import read_image
 
 from .synthetic_pairs import make_pairs
 
@@ -184,8 +185,8 @@ def test_exr_that_claims_a_huge_window_is_refused_before_it_is_allocated(tmp_pat
 
 FUZZ = """
 import random, sys
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.image_files import read_image
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.reading import read_image
 random.seed(7)
 sound, path = open(sys.argv[1], "rb").read(), sys.argv[2]
 for _ in range(150):

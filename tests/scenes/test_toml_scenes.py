@@ -219,7 +219,7 @@ def test_meshes_and_whole_gltf_files(tmp_path):
         ("[camera]\nposition = [0,0,1]\ntarget = [0,0,0]\n" + BALL, ["camera", "yfov"]),
         ("[camera]\nposition = [0,0,1]\ntarget = [0,0,1]\nyfov = 40\n" + BALL, ["camera", "target is where"]),
         ("[camera]\nposition = [0,0,1]\ntarget = [0,0,0]\nyfov = 180\n" + BALL, ["camera.yfov", "at most 179"]),
-        ("[environment]\n" + BALL, ["environment.radiance", "required"]),
+        ("[environment]\n" + BALL, ["environment", "a radiance, a map or both"]),
         ("[environment]\nradiance = -1\n" + BALL, ["environment.radiance"]),
         ("[[lights]]\ntype = 'sun'\n" + BALL, ["lights[0].type", "point, spot, directional"]),
         (

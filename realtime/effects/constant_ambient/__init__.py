@@ -12,7 +12,7 @@ from ...effect import Effect, Knob, Knobs
 
 def uniforms(scene: Scene, knobs: Knobs, _light: Light | None) -> dict[str, Any]:
     """The environment's radiance, and the radiance that stands for light from other surfaces."""
-    environment = scene.environment.radiance if scene.environment else (0.0, 0.0, 0.0)
+    environment = scene.environment.mean if scene.environment else (0.0, 0.0, 0.0)
     total = sum((flux(scene, light) for light in scene.all_lights), np.zeros(3))
     mean_irradiance = total / max(surface_area(scene), 1e-300)
     return {

@@ -6,7 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from lightmeter.reports.image_files import read_image, write_channels, write_exr
+from lightmeter.reports.image_files import write_channels, write_exr
+from lightmeter.scenes.image_files.reading import read_image
 
 from .frames import channels, own_renderer, write_own_frame
 

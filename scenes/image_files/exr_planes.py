@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lightmeter.reports.exr_header import check_exr
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.native_messages import native_messages
-from lightmeter.reports.size_claims import MAX_PIXELS
+from lightmeter.scenes.image_files.exr_header import check_exr
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.native_messages import native_messages
+from lightmeter.scenes.image_files.size_claims import MAX_PIXELS
 
 
 def channel_names(path: Path, max_pixels: int = MAX_PIXELS) -> tuple[str, ...]:

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.size_claims import MAX_PIXELS, check_content, check_size
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.size_claims import MAX_PIXELS, check_content, check_size
 
 MAGIC = (b"#?RADIANCE", b"#?RGBE", b"#?AUTOPANO")
 

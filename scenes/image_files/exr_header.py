@@ -8,8 +8,8 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.size_claims import MAX_PIXELS, check_content, check_size
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.size_claims import MAX_PIXELS, check_content, check_size
 
 MAGIC = b"\x76\x2f\x31\x01"
 

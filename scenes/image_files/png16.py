@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lightmeter.reports.image_error import ImageError
-from lightmeter.reports.size_claims import MAX_PIXELS, check_content, check_size
+from lightmeter.scenes.image_files.image_error import ImageError
+from lightmeter.scenes.image_files.size_claims import MAX_PIXELS, check_content, check_size
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _SAMPLES = {2: 3, 6: 4}  # colour type: samples per pixel

@@ -6,7 +6,7 @@ a limit on the picture, and what the file's compression can hold at best.
 
 import os
 
-from lightmeter.reports.image_error import ImageError
+from lightmeter.scenes.image_files.image_error import ImageError
 
 MAX_PIXELS = 2**26  # 8192 × 8192, 768 MiB as float32 RGB: beyond what a frame comparison needs
 
