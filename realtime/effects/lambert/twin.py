@@ -1,7 +1,10 @@
 """Float64 twin of lambert.glsl."""
 
+from collections.abc import Callable
+
 import numpy as np
 
+from ...effect import Knobs
 from ...shared_twins import color, towards
 from ...twin import Twin
 
@@ -9,6 +12,11 @@ from ...twin import Twin
 def lambert(base_color: np.ndarray, n: np.ndarray, l: np.ndarray) -> np.ndarray:  # noqa: E741 (l: light)
     """f·(n·l), (3, N) in 1/sr."""
     return base_color / np.pi * np.maximum(np.sum(n * l, axis=0), 0.0)
+
+
+def model(_knobs: Knobs) -> Callable[..., np.ndarray]:
+    """The effect: f·(n·l), (3, N) in 1/sr, of base_color, metallic, roughness, specular, n, v, l."""
+    return lambda base_color, _metallic, _roughness, _specular, n, _v, light: lambert(base_color, n, light)
 
 
 TWINS = (

@@ -1,7 +1,10 @@
 """Float64 twin of minnaert.glsl."""
 
+from collections.abc import Callable
+
 import numpy as np
 
+from ...effect import Knobs
 from ...shared_twins import above, color, towards
 from ...twin import Argument, Twin, uniform
 
@@ -11,6 +14,12 @@ def minnaert(base_color: np.ndarray, k: np.ndarray, n: np.ndarray, v: np.ndarray
     n_dot_v, n_dot_l = np.sum(n * v, axis=0), np.sum(n * l, axis=0)
     power = (np.maximum(n_dot_v, 1e-7) * np.maximum(n_dot_l, 1e-7)) ** (k - 1)
     return np.where((n_dot_v > 0) & (n_dot_l > 0), base_color / np.pi * power * n_dot_l, 0.0)
+
+
+def model(knobs: Knobs) -> Callable[..., np.ndarray]:
+    """The effect under those knobs: f·(n·l), (3, N) in 1/sr, of base_color, metallic, roughness, specular, n, v, l."""
+    k = float(knobs["exponent"])
+    return lambda base_color, _metallic, _roughness, _specular, n, v, light: minnaert(base_color, k, n, v, light)
 
 
 TWINS = (
