@@ -12,6 +12,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import argparse
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
@@ -26,9 +27,12 @@ from lightmeter.metrics.registry import measure_all
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
-from lightmeter.realtime.graph import compile_plan
+from lightmeter.realtime.graph import Choice, compile_plan
+from lightmeter.realtime.renderer import Renderer
 from lightmeter.scenes.load import load
 from lightmeter.scenes.optics import conductors, fresnel, microfacet
+from lightmeter.scenes.optics.albedo import mean_albedo
+from lightmeter.scenes.optics.microsurface import walk
 
 MODELS: dict[str, tuple[str, dict]] = {
     "Lambert": ("lambert", {}),
@@ -63,6 +67,8 @@ ALBEDO_ROUGHNESS = (0.1, 0.3, 0.5, 0.7, 1.0)
 ALBEDO_COSINES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.1)
 SIDE = 96
 IRRADIANCE = 3.0
+ENERGY_ROUGHNESS = (0.2, 0.4, 0.6, 0.8, 1.0)
+ENERGY_F0 = (1.0, 0.9, 0.5)
 PLOTTED = (
     "Lambert",
     "Oren-Nayar, EON",
@@ -70,6 +76,8 @@ PLOTTED = (
     "Blinn-Phong, exact",
     "D: Beckmann",
     "G: Schlick, k = (r+1)²/8",
+    "G: fast V",
+    "F: exact dielectric",
 )
 
 
@@ -187,9 +195,9 @@ class Furnace:
 
     rings, turns = 96, 64
 
-    def __init__(self) -> None:
-        roughness = np.array(ALBEDO_ROUGHNESS)[:, None, None, None]
-        cosine = np.array(ALBEDO_COSINES)[:, None, None]
+    def __init__(self, roughness: Sequence[float], cosine: Sequence[float]) -> None:
+        roughness = np.array(roughness)[:, None, None, None]
+        cosine = np.array(cosine)[:, None, None]
         along, along_weight = gauss(self.rings, 1.0)
         turn = np.cos((np.arange(self.turns) + 0.5) * np.pi / self.turns)
         sine = np.sqrt(1 - cosine**2)
@@ -220,12 +228,17 @@ def main() -> None:
     """Measure, print the tables as Markdown, draw the plot."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", choices=MODELS, nargs="+", default=list(MODELS), metavar="MODEL")
+    parser.add_argument("--times", action="store_true", help="time every model at 512², and nothing else")
     parser.add_argument("--plot", type=Path, metavar="PNG")
     parser.add_argument("--json", type=Path, metavar="FILE")
     options = parser.parse_args()
     device, console = Device(), Console(stderr=True)
+    if options.times:
+        print(table(["model", "ms", "beside Cook-Torrance"], times(device, options.only)))
+        return
     errors, albedos = [], []
-    everywhere, ball, furnace, world = AllDirections(), Ball(), Furnace(), World.of(stage())
+    everywhere, ball, world = AllDirections(), Ball(), World.of(stage())
+    furnace = Furnace(ALBEDO_ROUGHNESS, ALBEDO_COSINES)
     for material, (base_color, metallic) in MATERIALS.items():
         exact = [truth(world, view.at, base_color, metallic) for view in (everywhere, ball)]
         for model in options.only:
@@ -236,6 +249,7 @@ def main() -> None:
             white = furnace.albedo(shaded(device, furnace.at, 1.0, metallic, effect, knobs))
             albedos.append(brightest(model, material, white))
     print(document(errors, albedos))
+    print(f"\n{table(['F0, roughness', *COMPENSATED, 'random walk'], energy(device))}")
     machine = fingerprint(device.renderer, device.version)
     if options.json:
         kept = {"device": machine, "roughness": ROUGHNESS}
@@ -290,6 +304,64 @@ def document(errors: list[Errors], albedos: list[Albedo]) -> str:
     return "\n\n".join(parts)
 
 
+def times(device: Device, models: list[str]) -> list[list[str]]:
+    """The shading passes of metal-rough-grid's three lights at 512², in rounds over all models.
+
+    A round's times were taken under like conditions: the ratio is the median of the rounds' ratios.
+    """
+    scene, size = load("metal-rough-grid"), (512, 512)
+    renderers = {}
+    for model in dict.fromkeys(["Cook-Torrance", *models]):
+        effect, knobs = MODELS[model]
+        plan = compile_plan(scene, effects(), Choice(only=(effect,), settings={effect: knobs}))
+        renderers[model] = Renderer(device, plan, size)
+        renderers[model].draw()
+    rounds: dict[str, list[float]] = {model: [] for model in renderers}
+    for _ in range(ROUNDS):
+        for model, renderer in renderers.items():
+            passes = renderer.record(1, 0).passes
+            rounds[model].append(sum(taken[0] for _, effect, taken in passes if effect))
+    beside = np.array(rounds["Cook-Torrance"])
+    return [
+        [model, f"{np.median(taken):.1f}", f"{np.median(np.array(taken) / beside):.2f}"]
+        for model, taken in rounds.items()
+    ]
+
+
+ROUNDS = 15
+COMPENSATED = {"single": "none", "Turquin": "turquin", "Kulla-Conty": "kulla_conty"}
+RAYS = 400_000
+
+
+def energy(device: Device) -> list[list[str]]:
+    """What metals return of light from everywhere: by one bounce, compensated, and by a walk on the microsurface."""
+    nodes, weights = gauss(10, 1.0)
+    furnace = Furnace(ENERGY_ROUGHNESS, nodes)
+    rows = []
+    for f0 in ENERGY_F0:
+        found = []
+        for compensation in COMPENSATED.values():
+            knobs = {"compensation": compensation}
+            albedo = furnace.albedo(shaded(device, furnace.at, f0, 1.0, "cook_torrance", knobs))
+            found.append(mean_albedo(albedo, nodes, weights))
+        for index, roughness in enumerate(ENERGY_ROUGHNESS):
+            walked, sure = walked_albedo(f0, roughness)
+            cells = [f"{values[index]:.3f}" for values in found]
+            rows.append([f"{f0:g}, {roughness:g}", *cells, f"{walked:.3f} ± {sure:.3f}"])
+    return rows
+
+
+def walked_albedo(f0: float, roughness: float) -> tuple[float, float]:
+    """The mean weight of rays from everywhere, and half its 95 % interval."""
+    rng = np.random.default_rng(0)
+    cosine, turn = np.sqrt(rng.random(RAYS)), 2 * np.pi * rng.random(RAYS)
+    sine = np.sqrt(1 - cosine**2)
+    v = np.stack([sine * np.cos(turn), sine * np.sin(turn), cosine])
+    alpha = float(microfacet.alpha_from_roughness(roughness))
+    weight = walk(v, alpha, lambda c: microfacet.f_schlick(c, f0, 1.0)[None], rng).weight[0]
+    return float(weight.mean()), float(1.96 * weight.std() / np.sqrt(RAYS))
+
+
 def place(albedo: Albedo) -> str:
     """An albedo and where it is found."""
     return f"{albedo.largest:.3f} (roughness {albedo.roughness:g}, n·v {albedo.cosine:g})"
@@ -340,7 +412,7 @@ def plot(errors: list[Errors], path: Path) -> None:
         axis.set(title=material, xlabel="roughness", yscale="log", ylim=(1e-3, 4))
         axis.grid(alpha=0.3, which="both")
     axes[0].set_ylabel("light in the wrong place, Σ|L − L*| / ΣL*")
-    axes[1].legend(fontsize=7, loc="lower right")
+    axes[1].legend(fontsize=7, loc="lower left")
     figure.savefig(path, dpi=100)
 
 
