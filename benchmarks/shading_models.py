@@ -404,7 +404,7 @@ def plot(errors: list[Errors], path: Path) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(1, 2, figsize=(9, 3.6), sharey=True, layout="constrained")
+    figure, axes = pyplot.subplots(1, 2, figsize=(10, 3.6), sharey=True, layout="constrained")
     for axis, material in zip(axes, MATERIALS, strict=True):
         for error in errors:
             if error.material == material and error.model in PLOTTED:
@@ -412,8 +412,8 @@ def plot(errors: list[Errors], path: Path) -> None:
         axis.set(title=material, xlabel="roughness", yscale="log", ylim=(1e-3, 4))
         axis.grid(alpha=0.3, which="both")
     axes[0].set_ylabel("light in the wrong place, Σ|L − L*| / ΣL*")
-    axes[1].legend(fontsize=7, loc="lower left")
-    figure.savefig(path, dpi=100)
+    figure.legend(*axes[1].get_legend_handles_labels(), fontsize=8, loc="outside right center")
+    figure.savefig(path, dpi=90)
 
 
 if __name__ == "__main__":
