@@ -27,6 +27,7 @@ class ShadingPass:
         self._stage, self._effect, self._knobs, self._separate = stage, effect, knobs, separate
         self._programs: dict[tuple, Any] = {}
         self._uniforms: dict[Step, Uniforms] = {}
+        self._tables = {name: stage.device.table(values) for name, values in effect.tables(knobs).items()}
         self.own: Any = None
         if (effect.folder / "passes.py").is_file():
             module = import_module(f"{__package__}.effects.{effect.name}.passes")
@@ -51,6 +52,7 @@ class ShadingPass:
         self._uniforms[step].write()
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
+        textures |= self._tables
         if self.own is not None and step.light is not None:
             textures |= self.own.textures(step.light)
         bind(program, textures)
@@ -66,7 +68,9 @@ class ShadingPass:
         return values | {"viewer": viewer(scene.camera)}
 
     def _program(self, step: Step):
-        own = self.own.defines(step.light) if self.own is not None and step.light is not None else {}
+        own = dict(self._effect.defines(self._knobs))
+        if self.own is not None and step.light is not None:
+            own |= self.own.defines(step.light)
         reads = () if self._separate else step.reads
         key = (step.writes, reads, tuple(own.items()))
         if key not in self._programs:

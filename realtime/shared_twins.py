@@ -54,6 +54,47 @@ def brdf(base_color, metallic, roughness, specular, n, v, l):  # noqa: E741 (l: 
     return material.evaluate(point(base_color, metallic, roughness, specular), n, v, l)
 
 
+MATERIAL_AND_DIRECTIONS = (
+    color("base_color"),
+    unit("metallic"),
+    unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+    unit("specular"),
+    towards("n"),
+    towards("v"),
+    towards("l"),
+)
+"""What a BRDF takes."""
+
+
+def half_cosines(n, v, l):  # noqa: E741
+    """(n·h, |n × h|², v·h) as a vector."""
+    return stack(*microfacet.half_cosines(n, v, l))
+
+
+def apart(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """v and l no nearer to opposite than 0.02 of a turn's cosine: there the half vector is made of rounding."""
+    n, v, light = inputs
+    return [n, v, np.where(np.sum(v * light, axis=0) < -0.98, -light, light)]
+
+
+def lit_signs(n, v, l):  # noqa: E741
+    """The two cosines that decide between light and none."""
+    return [(np.sum(n * d, axis=0), np.sum(np.abs(n * d), axis=0)) for d in (v, l)]
+
+
+def above(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """The last three are n, v, l: both are turned to n's side, and a fifth of each along the surface, to 1e-4."""
+    *others, n, v, light = inputs
+    turned = []
+    for direct in (v, light):
+        cosine = np.sum(n * direct, axis=0)
+        along = direct - cosine * n + 1e-9 * np.roll(n, 1, axis=0)  # straight above there is no direction beside n
+        grazing = rng.random(len(cosine)) < 0.2
+        raised = np.where(grazing, logarithmic(1e-4, 1e-1)(rng, len(cosine)), np.maximum(np.abs(cosine), 1e-4))
+        turned.append(along / np.linalg.norm(along, axis=0) * np.sqrt(1 - raised**2) + raised * n)
+    return [*others, n, *turned]
+
+
 def near_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
     """Half of the lanes get a half vector within the lobe, at angles from 1e-5 to 1; a third looks along the surface.
 
@@ -77,7 +118,7 @@ def near_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[
 
 def brdf_signs(_base_color, _metallic, _roughness, _specular, n, v, light):
     """The two cosines that decide between light and none."""
-    return [(np.sum(n * d, axis=0), np.sum(np.abs(n * d), axis=0)) for d in (v, light)]
+    return lit_signs(n, v, light)
 
 
 def light_towards(light_position, at):
@@ -108,6 +149,16 @@ def unit_length(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.
     return [np.maximum(n_dot_h, np.sqrt(1 - sin2_h)), sin2_h, a]
 
 
+def of_one_angle(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """Half the lanes by the sine, half by the cosine; and exponents that leave something of most powers."""
+    cosine, sin2, exponent = inputs
+    by_sine = rng.random(len(cosine)) < 0.5
+    cosine = np.where(by_sine, np.sqrt(1 - sin2), cosine)
+    sin2 = np.where(by_sine, sin2, 1 - cosine**2)
+    highest = 20 / np.maximum(-np.log(np.maximum(cosine, 1e-12)), 1e-6)
+    return [cosine, sin2, np.where(rng.random(len(cosine)) < 0.8, np.minimum(exponent, highest), exponent)]
+
+
 def brightest_at_grazing(_rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
     """F90 at least F0, as every material here has it: 0.04·s·(1 − m) + b·m ≤ s·(1 − m) + m.
 
@@ -118,6 +169,42 @@ def brightest_at_grazing(_rng: np.random.Generator, inputs: list[np.ndarray]) ->
 
 
 TWINS = (
+    Twin(
+        "brdf.glsl",
+        "half_cosines",
+        "vec3",
+        (towards("n"), towards("v"), towards("l")),
+        half_cosines,
+        roundings=1 + 3 + 3 + 2 + 3,
+        why="v + l; its square (3); inversesqrt (2) and the product; n × h (2) and its square (3)",
+        arrange=apart,
+    ),
+    Twin(
+        "cosine_power.glsl",
+        "cosine_power",
+        "float",
+        (
+            cosine("cosine"),
+            Argument("sin2", "float", logarithmic(1e-12, 1.0), (0.0, 0.0156249, 0.0156251, 1.0)),
+            Argument("exponent", "float", logarithmic(1e-3, 2e6), (0.0, 1.0)),
+        ),
+        microfacet.cosine_power,
+        roundings=7 + 4 + 1 + 3,
+        why="the series (7) or log near 1 (2⁻²¹, 4 ε, and 3 ulp elsewhere), the product; exp's 3 ulp, and 2 for each 1 "
+        "of its argument, which is |x·∂f/∂x| of the exponent",
+        arrange=of_one_angle,
+        guards=("0.015625", "0.25", "0.333333333"),
+    ),
+    Twin(
+        "cosine_power.glsl",
+        "blinn_exponent",
+        "float",
+        (alpha("alpha"),),
+        microfacet.blinn_exponent,
+        roundings=1 + 2.5 + 1,
+        why="the square, the division (2.5), the difference",
+        cancels=2.0,
+    ),
     Twin(
         "brdf.glsl",
         "d_ggx",
@@ -186,15 +273,7 @@ TWINS = (
         "brdf.glsl",
         "gltf_brdf",
         "vec3",
-        (
-            color("base_color"),
-            unit("metallic"),
-            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
-            unit("specular"),
-            towards("n"),
-            towards("v"),
-            towards("l"),
-        ),
+        MATERIAL_AND_DIRECTIONS,
         brdf,
         roundings=1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 7 + 5 + 6,
         why="v + l; its square (3); inversesqrt (2) and the product; n × h (2) and its square (3); D (16), V (12.5), F "

@@ -65,6 +65,7 @@ class Twin:
         cancels: the size of constants that intermediate results cancel with (1 − x near x = 1), added to Σ |x·∂f/∂x|.
         guards: numbers in the GLSL whose exact value does not matter.
         defines: what the file is compiled with.
+        uniforms: knobs that the function reads, by name.
     """
 
     file: str
@@ -79,6 +80,7 @@ class Twin:
     cancels: float = 0.0
     guards: tuple[str, ...] = ()
     defines: Mapping[str, object] = field(default_factory=dict)
+    uniforms: Mapping[str, object] = field(default_factory=dict)
 
 
 def uniform(low: float, high: float, components: int = 1) -> Draw:

@@ -2,6 +2,14 @@
 const float PI = 3.14159265358979;
 const float MIN_ALPHA = 1e-3;
 
+// (n·h, |n × h|², v·h) of the half vector h between v and l.
+vec3 half_cosines(vec3 n, vec3 v, vec3 l) {
+    vec3 sum = v + l;
+    vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-38));
+    vec3 n_cross_h = cross(n, h);
+    return vec3(dot(n, h), dot(n_cross_h, n_cross_h), dot(v, h));
+}
+
 // Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33. sin2_h is |n × h|²: the
 // textbook's cos²·(α² − 1) + 1 cancels for small α.
 float d_ggx(float n_dot_h, float sin2_h, float alpha) {
@@ -43,14 +51,12 @@ vec3 gltf_brdf(vec3 base_color, float metallic, float roughness, float specular,
     float n_dot_v = dot(n, v);
     float n_dot_l = dot(n, l);
     if (n_dot_v <= 0.0 || n_dot_l <= 0.0) return vec3(0.0);
-    vec3 sum = v + l;
-    vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-38));
-    vec3 n_cross_h = cross(n, h);
+    vec3 half_vector = half_cosines(n, v, l);
     float alpha = max(roughness * roughness, MIN_ALPHA);
-    float d = d_ggx(dot(n, h), dot(n_cross_h, n_cross_h), alpha);
+    float d = d_ggx(half_vector.x, half_vector.y, alpha);
     float visible = v_smith_ggx_correlated(max(n_dot_v, 1e-7), max(n_dot_l, 1e-7), alpha);
-    vec3 fresnel = f_schlick(dot(v, h), reflectance_f0(base_color, metallic, specular),
+    vec3 fresnel = f_schlick(half_vector.z, reflectance_f0(base_color, metallic, specular),
                              reflectance_f90(metallic, specular));
-    vec3 above = f_schlick(dot(v, h), vec3(0.04 * specular), vec3(specular));
+    vec3 above = f_schlick(half_vector.z, vec3(0.04 * specular), vec3(specular));
     return ((1.0 - above) * diffuse_color(base_color, metallic) * (1.0 / PI) + fresnel * (d * visible)) * n_dot_l;
 }

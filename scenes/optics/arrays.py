@@ -55,6 +55,21 @@ def power(x: Array, exponent: float) -> Array:
     return _drjit().power(x, exponent) if _is_drjit(x) else np.power(x, exponent)
 
 
+def exp(x: Array) -> Array:
+    """eˣ."""
+    return _drjit().exp(x) if _is_drjit(x) else np.exp(x)
+
+
+def log(x: Array) -> Array:
+    """ln x, x > 0."""
+    return _drjit().log(x) if _is_drjit(x) else np.log(x)
+
+
+def arctan2(y: Array, x: Array) -> Array:
+    """The angle of (x, y), radians."""
+    return _drjit().atan2(y, x) if _is_drjit(y, x) else np.arctan2(y, x)
+
+
 def sincos(x: Array) -> tuple[Array, Array]:
     """sin x and cos x."""
     return _drjit().sincos(x) if _is_drjit(x) else (np.sin(x), np.cos(x))

@@ -56,10 +56,8 @@ def evaluate(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # no
     """f(v, l)·(n·l) in 1/sr: what a unit of irradiance across l turns into, as radiance towards v."""
     n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
     lit = (n_dot_v > 0) & (n_dot_l > 0)
-    h = xp.normalize(v + l)
-    n_dot_h, v_dot_h = xp.dot(n, h), xp.dot(v, h)
-    n_cross_h = xp.cross(n, h)
-    d = microfacet.d_ggx(n_dot_h, xp.dot(n_cross_h, n_cross_h), point.alpha)
+    n_dot_h, sin2_h, v_dot_h = microfacet.half_cosines(n, v, l)
+    d = microfacet.d_ggx(n_dot_h, sin2_h, point.alpha)
     visible = microfacet.v_smith_ggx_correlated(xp.maximum(n_dot_v, 1e-7), xp.maximum(n_dot_l, 1e-7), point.alpha)
     fresnel = microfacet.f_schlick(v_dot_h, point.f0, point.f90)
     above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
@@ -80,11 +78,9 @@ def pdf(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa: E
     """Density of `sample` over directions l, 1/sr; 0 below the horizon."""
     n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
     lit = (n_dot_v > 0) & (n_dot_l > 0)
-    h = xp.normalize(v + l)
-    n_dot_h = xp.dot(n, h)
-    n_cross_h = xp.cross(n, h)
+    n_dot_h, sin2_h, _ = microfacet.half_cosines(n, v, l)
     alpha = point.alpha
-    d = microfacet.d_ggx(n_dot_h, xp.dot(n_cross_h, n_cross_h), alpha)
+    d = microfacet.d_ggx(n_dot_h, sin2_h, alpha)
     # Density of visible normals over h, times dh/dl = 1/(4 v·h): G1·D/(4 n·v) (Heitz 2018, eq. 17).
     a2 = alpha * alpha
     g1_over_4nv = 0.5 / xp.maximum(n_dot_v + xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2), 1e-30)

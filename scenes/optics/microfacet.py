@@ -1,6 +1,8 @@
-"""GGX microfacets: distribution, height-correlated masking and shadowing, Fresnel, sampling of visible normals.
+"""Microfacets: distributions of normals, masking and shadowing, Schlick's Fresnel, sampling of visible normals.
 
-`alpha` is the square of glTF's perceptual roughness. Cosines outside their range give 0 where a comment says so.
+The material is GGX with height-correlated Smith (`material.py`); the other distributions and maskings are what
+real-time renderers put in their place. `alpha` is the square of glTF's perceptual roughness. Cosines outside their
+range give 0 where a comment says so.
 """
 
 from collections.abc import Callable
@@ -8,6 +10,7 @@ from collections.abc import Callable
 from . import arrays as xp
 from .arrays import Array
 
+PI = 3.141592653589793
 MIN_ALPHA = 1e-3
 """The smallest α either side evaluates: below it a lobe is narrower than float32 resolves (design, section 3)."""
 
@@ -15,6 +18,13 @@ MIN_ALPHA = 1e-3
 def alpha_from_roughness(roughness: Array) -> Array:
     """α = max(roughness², 1e-3) (Burley 2012, section 5.4; glTF 2.0, B.2.3)."""
     return xp.maximum(roughness * roughness, MIN_ALPHA)
+
+
+def half_cosines(n: Array, v: Array, l: Array) -> tuple[Array, Array, Array]:  # noqa: E741 (l: light, as in the field)
+    """n·h, |n × h|² and v·h of the half vector h between v and l; all 0 where l = −v."""
+    h = xp.normalize(v + l)
+    n_cross_h = xp.cross(n, h)
+    return xp.dot(n, h), xp.dot(n_cross_h, n_cross_h), xp.dot(v, h)
 
 
 def d_ggx(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
@@ -25,7 +35,36 @@ def d_ggx(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
     """
     # The divisor is at least α² ≥ 1e-6 for a unit h; h is 0 where light comes from straight behind v.
     k = alpha / xp.maximum(n_dot_h * n_dot_h * alpha * alpha + sin2_h, 1e-12)
-    return xp.where(n_dot_h > 0, k * k * (1 / 3.141592653589793), 0 * k)
+    return xp.where(n_dot_h > 0, k * k * (1 / PI), 0 * k)
+
+
+def cosine_power(cosine: Array, sin2: Array, exponent: Array) -> Array:
+    """cosᵉ of an angle, given its cosine and squared sine; 0 for a negative cosine.
+
+    Near 1 the logarithm of a rounded cosine has lost its digits: there it is a series in the squared sine.
+    """
+    series = -0.5 * sin2 * (1 + sin2 * (1 / 2 + sin2 * (1 / 3 + sin2 * (1 / 4))))
+    logarithm = xp.where(sin2 < 1 / 64, series, xp.log(xp.maximum(cosine, 1e-30)))
+    return xp.where(cosine > 0, xp.exp(exponent * logarithm), 0 * logarithm)
+
+
+def blinn_exponent(alpha: Array) -> Array:
+    """The exponent of n·h whose lobe is as high as GGX's, 1/(π·α²) (Walter et al. 2007, section 5.2)."""
+    return 2 / (alpha * alpha) - 2
+
+
+def d_beckmann(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
+    """Beckmann's distribution of normals, 1/sr (Walter et al. 2007, eq. 25); 0 below the horizon."""
+    cosine2 = xp.maximum(n_dot_h * n_dot_h, 1e-14)
+    a2 = alpha * alpha
+    value = xp.exp(-sin2_h / (cosine2 * a2)) / (PI * a2 * cosine2 * cosine2)
+    return xp.where(n_dot_h > 0, value, 0 * value)
+
+
+def d_blinn(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
+    """Blinn's power of the cosine as a distribution, 1/sr (Walter et al. 2007, eq. 30); 0 below the horizon."""
+    exponent = blinn_exponent(alpha)
+    return (exponent + 2) / (2 * PI) * cosine_power(n_dot_h, sin2_h, exponent)
 
 
 def v_smith_ggx_correlated(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
@@ -34,6 +73,40 @@ def v_smith_ggx_correlated(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Arra
     lambda_v = n_dot_l * xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2)
     lambda_l = n_dot_v * xp.sqrt(n_dot_l * n_dot_l * (1 - a2) + a2)
     return 0.5 / xp.maximum(lambda_v + lambda_l, 1e-30)
+
+
+def v_smith_ggx_separable(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
+    """G1(v)·G1(l)/(4·n·v·n·l): Smith's masking and shadowing as if independent (Walter et al. 2007, eq. 23, 34)."""
+    a2 = alpha * alpha
+    toward_v = n_dot_v + xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2)
+    toward_l = n_dot_l + xp.sqrt(n_dot_l * n_dot_l * (1 - a2) + a2)
+    return 1 / (toward_v * toward_l)
+
+
+def v_schlick(n_dot_v: Array, n_dot_l: Array, k: Array) -> Array:
+    """G1(v)·G1(l)/(4·n·v·n·l) with Schlick's rational G1 = c/(c·(1 − k) + k) (Schlick 1994, eq. 19)."""
+    return 0.25 / ((n_dot_v * (1 - k) + k) * (n_dot_l * (1 - k) + k))
+
+
+def v_schlick_half(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
+    """Schlick's masking with k = α/2, nearest to Smith's for GGX (Karis 2013, Real Shading in Unreal Engine 4)."""
+    return v_schlick(n_dot_v, n_dot_l, 0.5 * alpha)
+
+
+def v_schlick_remapped(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
+    """Schlick's masking with k = (roughness + 1)²/8, for analytic lights (Karis 2013; Burley's remapping)."""
+    widened = xp.sqrt(alpha) + 1
+    return v_schlick(n_dot_v, n_dot_l, widened * widened * (1 / 8))
+
+
+def v_smith_ggx_fast(n_dot_v: Array, n_dot_l: Array, alpha: Array) -> Array:
+    """Height-correlated Smith without roots (Hammon 2017, PBR Diffuse Lighting for GGX+Smith; Filament's fast V)."""
+    return 0.5 / xp.maximum(xp.mix(2 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha), 1e-30)
+
+
+def v_implicit(_n_dot_v: Array, _n_dot_l: Array, alpha: Array) -> Array:
+    """G = n·v·n·l, which the divisor takes away (Hoffman 2010, Crafting Physically Motivated Shading Models)."""
+    return 0.25 + 0 * alpha
 
 
 def f_schlick(v_dot_h: Array, f0: Array, f90: Array) -> Array:
@@ -57,7 +130,7 @@ def sample_visible_normal(v: Array, alpha: Array, u1: Array, u2: Array, vector: 
     t1 = vector(xp.where(flat, -vh[1] * inverse, 1 + zero), xp.where(flat, vh[0] * inverse, zero), zero)
     t2 = xp.cross(vh, t1)
     radius = xp.sqrt(u1)
-    sin_phi, cos_phi = xp.sincos(2 * 3.141592653589793 * u2)
+    sin_phi, cos_phi = xp.sincos(2 * PI * u2)
     p1 = radius * cos_phi
     s = 0.5 * (1 + vh[2])
     p2 = (1 - s) * xp.sqrt(xp.maximum(1 - p1 * p1, 0.0)) + s * (radius * sin_phi)

@@ -19,9 +19,19 @@ ROUNDINGS = 78
 STEP = 1e-6
 
 
-def exact_direct(light, source, position, normal, view, base_color, metallic, roughness, specular):
-    """Unshadowed reflected radiance, (3, N) float64; `source` is the light's position, or the direction towards it."""
-    point = material.MaterialPoint(base_color, metallic, roughness, specular)
+def gltf(base_color, metallic, roughness, specular, normal, view, to_light):
+    """The scene's material: f·(n·l), (3, N)."""
+    return material.evaluate(material.MaterialPoint(base_color, metallic, roughness, specular), normal, view, to_light)
+
+
+def exact_direct(light, source, position, normal, view, *parameters, model=gltf):
+    """Unshadowed reflected radiance, (3, N) float64.
+
+    Args:
+        source: the light's position, or the direction towards it.
+        parameters: base colour, metalness, roughness, specular.
+        model: f·(n·l) of them, normal, view and the direction to the light.
+    """
     if isinstance(light, DirectionalLight):
         power, received, to_light = light.irradiance, 1.0, source / np.linalg.norm(source, axis=0)
     else:
@@ -30,7 +40,7 @@ def exact_direct(light, source, position, normal, view, base_color, metallic, ro
         if isinstance(light, SpotLight):
             cosine = -np.sum(to_light * np.array(light.direction)[:, None], axis=0)
             received = received * lights.spot_attenuation(cosine, light.inner, light.outer)
-    return np.array(power)[:, None] * received * material.evaluate(point, normal, view, to_light)
+    return np.array(power)[:, None] * received * model(*parameters, normal, view, to_light)
 
 
 def inputs_of(points, light) -> list[np.ndarray]:

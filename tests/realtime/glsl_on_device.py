@@ -8,6 +8,7 @@ import numpy as np
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.shaders import SHARED, source
 from lightmeter.realtime.twin import Twin
+from lightmeter.realtime.uniforms import set_uniforms
 
 WIDTH = 1024
 FUNCTION = re.compile(r"^(?:void|float|int|bool|vec[234]|mat[234])\s+(\w+)\s*\(([^)]*)\)\s*\{", re.MULTILINE)
@@ -84,6 +85,7 @@ def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray],
         if name in program:
             texture.use(unit)
             program[name].value = unit
+    set_uniforms(program, dict(twin.uniforms))
     device.draw(device.fullscreen(program), 3)
     widths = [{"vec2": 2, "vec3": 3}.get(t, 1) for t in (twin.result, *(a.type for a in outs))]
     results = []
