@@ -149,7 +149,10 @@ def test_settings_are_read_and_checked():
         (Choice(settings={"shadow_map": {"resolution": "many"}}), "expected a whole number, got 'many'"),
         (Choice(settings={"shadow_map": {"resolution": 2.5}}), "expected a whole number, got 2.5"),
         (Choice(settings={"shadow_map": {"resolution": 1}}), "within [16, 8192], got 1"),
-        (Choice(settings={"shadow_map": {"filter": "soft"}}), "expected one of hard, pcf3, got 'soft'"),
+        (
+            Choice(settings={"shadow_map": {"filter": "soft"}}),
+            "expected one of hard, pcf3, pcf5, pcf7, pcf9, poisson, got 'soft'",
+        ),
         (Choice(settings={"shadow_map": {"bias": "nan"}}), "within [0, 100], got 'nan'"),
         (Choice(settings={"shadow_map": {"bias": float("inf")}}), "within [0, 100]"),
         (Choice(settings={"narkowicz": {"prescale": True}}), "expected a number, got True"),

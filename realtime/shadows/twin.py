@@ -1,10 +1,12 @@
-"""Float64 twins of shadow_map.glsl's geometry; its comparisons read the map and are tested on scenes."""
+"""Float64 twins of the shared shadow shaders; what reads a map is tested on scenes."""
 
 import numpy as np
 
-from ...shared_twins import stack
-from ...twin import Argument, Twin, direction, logarithmic, uniform
+from ..shared_twins import stack
+from ..twin import Argument, Twin, direction, logarithmic, uniform, whole
 from .views import CUBE_FACES
+
+DEFINES = {"VIEWS": 6, "COLUMNS": 3, "RESOLUTION": 16, "FILTER_RADIUS": 1}
 
 
 def cube_face(d: np.ndarray) -> np.ndarray:
@@ -17,7 +19,12 @@ def cube_face(d: np.ndarray) -> np.ndarray:
 def bias_distance(n_dot_l, n_dot_a, l_dot_a, texel, constant, slope, radius) -> np.ndarray:
     """Metres towards the light: `constant` texels, and a texel's depth on the slope times the filter's reach."""
     across = np.sqrt(np.maximum(1 - n_dot_a * n_dot_a, 0))
-    return texel * (constant + slope * radius * across * np.abs(l_dot_a) / np.clip(n_dot_l, 0.05, 1.0))
+    return texel * (constant + slope * radius * across * np.abs(l_dot_a) / np.clip(n_dot_l, 0.001, 1.0))
+
+
+def normal_distance(n_dot_l, texel, amount) -> np.ndarray:
+    """Metres along the normal: `amount` texels, times the sine of the light's angle to it."""
+    return texel * amount * np.sqrt(np.maximum(1 - n_dot_l * n_dot_l, 0))
 
 
 def project(view: np.ndarray, point: np.ndarray):
@@ -35,6 +42,24 @@ def before_the_light(view: np.ndarray, point: np.ndarray):
     return [(np.sum(terms, axis=0), np.sum(np.abs(terms), axis=0))]
 
 
+def noise(pixel: np.ndarray) -> np.ndarray:
+    """Interleaved gradient noise, 0…1."""
+    inner = 0.06711056 * pixel[0] + 0.00583715 * pixel[1]
+    return 52.9829189 * (inner % 1) % 1
+
+
+def noise_wraps(pixel: np.ndarray):
+    """How far both fractions are from wrapping, and the numbers that they are fractions of."""
+    inner = 0.06711056 * pixel[0] + 0.00583715 * pixel[1]
+    outer = 52.9829189 * (inner % 1)
+    return [(np.minimum(f % 1, 1 - f % 1), size) for f, size in ((inner, inner), (outer, 52.9829189 * inner))]
+
+
+def turned(point: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """A point of the plane, rotated by a cosine and a sine."""
+    return stack(point[0] * turn[0] - point[1] * turn[1], point[0] * turn[1] + point[1] * turn[0])
+
+
 def views(rng: np.random.Generator, n: int) -> np.ndarray:
     """(16, n) perspective views from the origin's neighbourhood, 5 to 170 degrees wide, along −z, column by column."""
     scale = 1 / np.tan(np.radians(rng.uniform(2.5, 85, n)))
@@ -48,7 +73,7 @@ def views(rng: np.random.Generator, n: int) -> np.ndarray:
 
 TWINS = (
     Twin(
-        "shadow_map.glsl",
+        "shadow_views.glsl",
         "cube_face",
         "int",
         (
@@ -69,14 +94,14 @@ TWINS = (
         cube_face,
         roundings=0,
         why="comparisons of the inputs only",
-        defines={"VIEWS": 6, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+        defines=DEFINES,
     ),
     Twin(
-        "shadow_map.glsl",
+        "shadow_views.glsl",
         "bias_distance",
         "float",
         (
-            Argument("n_dot_l", "float", uniform(0.0, 1.0), (0.0, 0.05, 0.0500001, 0.999999, 1.0, 1.02)),
+            Argument("n_dot_l", "float", uniform(0.0, 1.0), (0.0, 0.001, 0.00100001, 0.999999, 1.0, 1.02)),
             Argument("n_dot_a", "float", uniform(-1.0, 1.0), (0.0, 0.9, -0.9)),
             Argument("l_dot_a", "float", uniform(-1.0, 1.0), (0.0, 1.0, -1.0)),
             Argument("texel", "float", logarithmic(1e-5, 1.0)),
@@ -87,10 +112,10 @@ TWINS = (
         bias_distance,
         roundings=2 + 3 + 3 + 2.5 + 2,
         why="1 − (n·a)² (2), its root (3), three products, the division (2.5), the sum and the texel (2)",
-        defines={"VIEWS": 1, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+        defines=DEFINES,
     ),
     Twin(
-        "shadow_map.glsl",
+        "shadow_views.glsl",
         "project",
         "bool",
         (
@@ -102,6 +127,43 @@ TWINS = (
         roundings=4 + 2.5 + 2,
         why="a product and three sums, the division (2.5), the half and its sum",
         signs=before_the_light,
-        defines={"VIEWS": 1, "RESOLUTION": 16, "FILTER_RADIUS": 1},
+        defines=DEFINES,
+    ),
+    Twin(
+        "shadow_views.glsl",
+        "normal_distance",
+        "float",
+        (
+            Argument("n_dot_l", "float", uniform(-1.0, 1.0), (0.0, 1.0, 1.0000001)),
+            Argument("texel", "float", logarithmic(1e-5, 1.0)),
+            Argument("amount", "float", uniform(0.0, 4.0), (0.0,)),
+        ),
+        normal_distance,
+        roundings=2 + 3 + 2,
+        why="1 − (n·l)² (2), its root (3), two products",
+        defines=DEFINES,
+    ),
+    Twin(
+        "noise.glsl",
+        "interleaved_noise",
+        "float",
+        (Argument("pixel", "vec2", lambda rng, n: whole(0, 4095)(rng, 2 * n).reshape(2, n)),),
+        noise,
+        roundings=2 + 2 + 2,
+        why="both constants, a product and a sum; the constant and the product (fractions are exact)",
+        signs=noise_wraps,
+    ),
+    Twin(
+        "shadow_filter.glsl",
+        "turned",
+        "vec2",
+        (
+            Argument("point", "vec2", uniform(-1.0, 1.0, 2), ((0.0, 0.0), (1.0, 0.0))),
+            Argument("turn", "vec2", uniform(-1.0, 1.0, 2), ((1.0, 0.0), (0.0, -1.0))),
+        ),
+        turned,
+        roundings=2,
+        why="a product and the sum",
+        defines=DEFINES,
     ),
 )
