@@ -137,6 +137,21 @@ def test_settings_are_read_and_checked():
     assert plan.effects["srgb"][1] == {}
 
 
+def test_what_is_left_out_is_not_replaced_unasked():
+    """Leaving out a term's default leaves the term out; what the scene does not need leaves its place to the next."""
+    known = {e.name: e for e in (Effect("a", ("encode",), "", ""), Effect("b", ("encode",), "", "", rank=1))}
+    scene = scene_of(BALL)
+    assert plan_of(scene, None, known).effect_of("encode") == "a"
+    out = plan_of(scene, Choice(without=("a",)), known)
+    assert out.effect_of("encode") is None and "encode" in out.not_approximated
+    assert why(out, "a") == "left out as asked"
+    assert why(out, "b") == "takes the place of a where it is asked for: --use b"
+    assert plan_of(scene, Choice(without=("a",), use=("b",)), known).effect_of("encode") == "b"
+    assert plan_of(scene, Choice(only=("b",)), known).effect_of("encode") == "b"
+    needless = known | {"a": Effect("a", ("encode",), "", "", unneeded=lambda _scene: "no need")}
+    assert plan_of(scene, None, needless).effect_of("encode") == "b"
+
+
 @pytest.mark.parametrize(
     ("choice", "message"),
     [
