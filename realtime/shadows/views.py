@@ -40,6 +40,11 @@ class ShadowViews:
     excluded: int | None = None
 
     @property
+    def planes(self) -> tuple[float, float]:
+        """Distances of the near and far plane of perspective views."""
+        return _clipping(self.depths)
+
+    @property
     def tiles(self) -> tuple[int, int]:
         """Columns and rows of the map: the views lie beside each other, row by row."""
         columns = math.ceil(math.sqrt(len(self.matrices)))
