@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ..shared_twins import stack
+from ..shared_twins import stack, unit
 from ..twin import Argument, Twin, direction, logarithmic, uniform, whole
 from .views import CUBE_FACES
 
-DEFINES = {"VIEWS": 6, "COLUMNS": 3, "RESOLUTION": 16, "FILTER_RADIUS": 1}
+DEFINES = {"VIEWS": 6, "COLUMNS": 3, "RESOLUTION": 16, "FILTER_RADIUS": 1, "MEAN_RADIUS": 1}
 
 
 def cube_face(d: np.ndarray) -> np.ndarray:
@@ -40,6 +40,29 @@ def before_the_light(view: np.ndarray, point: np.ndarray):
     columns = view.reshape(4, 4, -1)
     terms = [columns[0][3] * point[0], columns[1][3] * point[1], columns[2][3] * point[2], columns[3][3]]
     return [(np.sum(terms, axis=0), np.sum(np.abs(terms), axis=0))]
+
+
+def linear_depth(point: np.ndarray, light: np.ndarray, depths: np.ndarray) -> np.ndarray:
+    """Where between two distances a point lies, from a position or along a direction."""
+    away = np.where(light[3] > 0, np.linalg.norm(point - light[:3], axis=0), -np.sum(point * light[:3], axis=0))
+    return (away - depths[0]) / (depths[1] - depths[0])
+
+
+def darkened(share: np.ndarray, least: np.ndarray) -> np.ndarray:
+    """A ramp from `least` to 1."""
+    return np.maximum((share - least) / (1 - least), 0)
+
+
+def position_or_direction(rng: np.random.Generator, n: int) -> np.ndarray:
+    """(4, n) lights: positions with 1, directions with 0."""
+    near = rng.random(n) < 0.5
+    return np.concatenate([np.where(near, rng.uniform(-5, 5, (3, n)), direction(rng, n)), near[None].astype(float)])
+
+
+def apart(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """Lights with 0 or 1 for the last component; ranges of some length."""
+    point, light, depths = inputs
+    return [point, light, np.stack([depths[0], depths[0] + 1 + np.abs(depths[1])])]
 
 
 def noise(pixel: np.ndarray) -> np.ndarray:
@@ -164,6 +187,31 @@ TWINS = (
         turned,
         roundings=2,
         why="a product and the sum",
+        defines=DEFINES,
+    ),
+    Twin(
+        "shadow_depth.glsl",
+        "linear_depth",
+        "float",
+        (
+            Argument("point", "vec3", uniform(-5, 5, 3)),
+            Argument("light", "vec4", position_or_direction),
+            Argument("range", "vec2", uniform(-5, 5, 2)),
+        ),
+        linear_depth,
+        roundings=1 + 3 + 3 + 2 + 2.5,
+        why="the difference, its square (3) and root (3); both differences (2) and the division (2.5)",
+        arrange=apart,
+    ),
+    Twin(
+        "shadow_lookup.glsl",
+        "darkened",
+        "float",
+        (unit("share"), Argument("least", "float", uniform(0.0, 0.99), (0.0,))),
+        darkened,
+        roundings=2 + 2.5,
+        why="both differences and the division (2.5)",
+        cancels=1.0,
         defines=DEFINES,
     ),
 )

@@ -30,6 +30,7 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 NOT_TWINNED = {
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
     "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
+    "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
 """Plumbing; what reads a texture, or calls what does, is told by its text."""
 
@@ -158,7 +159,7 @@ def readers(definitions: dict[str, str]) -> set[str]:
     """The functions that read a texture, by themselves or by calling one of these that does."""
     found: set[str] = set()
     while True:
-        calls = "|".join(("texelFetch", "texture", *found))
+        calls = "|".join(("texelFetch", "texture", "textureLod", *found))
         more = {n for n, text in definitions.items() if re.search(rf"\b(?:{calls})\(", text.partition("{")[2])}
         if more == found:
             return found

@@ -5,7 +5,7 @@ from typing import Any
 from lightmeter.scenes.model import AreaLight, Light, Scene
 
 from ...effect import Effect, Knob, Knobs
-from ...shadows.knobs import BIASES, RESOLUTION, with_default
+from ...shadows.knobs import RESOLUTION, biases, with_default
 from .rectangle import half_sides
 
 
@@ -55,7 +55,7 @@ EFFECT = Effect(
             choices=("nearer", "between"),
             sweep=("nearer", "between"),
         ),
-        *BIASES,
+        *biases(),
     ),
     rank=1,
     channels=("position", "normal"),

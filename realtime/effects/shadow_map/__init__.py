@@ -1,7 +1,7 @@
 """Shadow maps: one for directional and spot lights, a cube of six for point lights and emissive surfaces."""
 
 from ...effect import Effect
-from ...shadows.knobs import BIASES, COMPARING, RESOLUTION
+from ...shadows.knobs import COMPARING, RESOLUTION, biases
 
 EFFECT = Effect(
     name="shadow_map",
@@ -11,6 +11,6 @@ EFFECT = Effect(
     "Antialiased Shadows with Depth Maps (percentage-closer filtering); Isidoro 2006, Shadow Mapping: GPU-based Tips "
     "and Techniques (a rotated Poisson disk); Holbert 2011, Saying Goodbye to Shadow Acne (normal offset); Wang & "
     "Molnar 1994, Second-Depth Shadow Mapping (faces=back)",
-    knobs=(RESOLUTION, *COMPARING, *BIASES),
+    knobs=(RESOLUTION, *COMPARING, *biases()),
     channels=("position", "normal"),
 )
