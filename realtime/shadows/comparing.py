@@ -1,12 +1,15 @@
-"""Percentage-closer filtering: what `shadow_filter.glsl` is compiled with and told."""
+"""Percentage-closer filtering: maps of depths that `shadow_filter.glsl` compares."""
 
 import math
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..effect import Knobs
+from ..stage import Stage
+from .passes import ShadowPasses
 
 RADII = {"hard": 0, "pcf3": 1, "pcf5": 2, "pcf7": 3, "pcf9": 4}
 """Texels around the point's own that a square filter compares."""
@@ -19,19 +22,25 @@ def reach(knobs: Knobs) -> int:
     return math.ceil(float(knobs["radius"])) if knobs["filter"] == "poisson" else RADII[str(knobs["filter"])]
 
 
-def defines(knobs: Knobs) -> dict[str, object]:
-    """What the filter is compiled with."""
-    if knobs["filter"] == "poisson":
-        return {"DISK": int(knobs["samples"]), "TURNS": TURNS}
-    return {"FILTER_RADIUS": RADII[str(knobs["filter"])]}
+class ComparedPasses(ShadowPasses):
+    """Maps of depths, compared."""
 
+    def __init__(self, stage: Stage, knobs: Knobs, folder: Path) -> None:
+        # A point that is moved along its normal may lie as far aside.
+        super().__init__(stage, knobs, folder, reach(knobs) + math.ceil(float(knobs["normal_offset"])))
 
-def uniforms(knobs: Knobs) -> dict[str, Any]:
-    """What the filter is told."""
-    if knobs["filter"] != "poisson":
-        return {}
-    angles = 2 * np.pi * np.arange(TURNS) / TURNS
-    return {"disk": disk(int(knobs["samples"])), "turns": np.stack([np.cos(angles), np.sin(angles)], axis=1)}
+    def defines(self, light: int) -> dict[str, object]:
+        """What the comparison is compiled with."""
+        filtering = str(self.knobs["filter"])
+        disk = filtering == "poisson"
+        own = {"DISK": int(self.knobs["samples"]), "TURNS": TURNS} if disk else {"FILTER_RADIUS": RADII[filtering]}
+        return super().defines(light) | own
+
+    def uniforms(self, light: int) -> dict[str, Any]:
+        """What the comparison is told."""
+        angles = 2 * np.pi * np.arange(TURNS) / TURNS
+        turns = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        return super().uniforms(light) | {"disk": disk(int(self.knobs["samples"])), "turns": turns}
 
 
 @cache

@@ -69,24 +69,43 @@ def shadow_views(scene: Scene, light: Light, resolution: int, border: int) -> Sh
     return _cube(scene, np.array(light.position, dtype=np.float64), used, border, None)
 
 
-def _corners(scene: Scene) -> np.ndarray:
+def corners_of(scene: Scene) -> np.ndarray:
+    """(8, 3) corners of the scene's bounding box."""
     low, high = scene.bounds
     return np.array([[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)])
 
 
 def _parallel(scene: Scene, direction: np.ndarray, used: int, border: int) -> ShadowViews:
-    view = _look(np.zeros(3), direction, _any_up(direction))
-    corners = _corners(scene) @ view[:3, :3].T
+    view = light_axes(direction)
+    corners = corners_of(scene) @ view[:3, :3].T
     low, high = corners.min(axis=0), corners.max(axis=0)
+    matrix, texel = parallel_view(view, low, high, used, border)
+    return ShadowViews(matrix[None], np.append(-direction, 0.0), np.array([texel]), (-high[2], -low[2]))
+
+
+def light_axes(direction: np.ndarray) -> np.ndarray:
+    """(4, 4) world to axes that look along a direction: −Z; where X and Y lie does not matter."""
+    return _look(np.zeros(3), direction, _any_up(direction))
+
+
+def parallel_view(
+    view: np.ndarray, low: np.ndarray, high: np.ndarray, used: int, border: int
+) -> tuple[np.ndarray, float]:
+    """The view along parallel rays that shows a box, (4, 4) world to clip space, and the size of its texels in metres.
+
+    Args:
+        view: what turns the world to the rays' axes.
+        low, high: the box's corners along those axes.
+        used, border: texels along a side that show it, and on either side around them.
+    """
     # A flat scene still gets some depth, and rounding does not push the outermost points outside.
-    size = max(float(np.ptp(corners)), 1e-6)
+    size = max(float(np.max(high) - np.min(low)), 1e-6)
     margin = np.maximum(high - low, 1e-6 * size) * (border / used) + 1e-5 * size
     low, high = low - margin, high + margin
     extent = high - low
     matrix = np.diag([2 / extent[0], 2 / extent[1], -2 / extent[2], 1.0])
     matrix[:3, 3] = -(high + low) / extent * np.array([1, 1, -1])
-    texel = float(max(extent[:2])) / (used + 2 * border)
-    return ShadowViews((matrix @ view)[None], np.append(-direction, 0.0), np.array([texel]), (-high[2], -low[2]))
+    return matrix @ view, float(max(extent[:2])) / (used + 2 * border)
 
 
 def _cone(scene: Scene, light: SpotLight, used: int, border: int) -> ShadowViews:
@@ -108,7 +127,7 @@ def _cube(scene: Scene, position: np.ndarray, used: int, border: int, excluded: 
 def _distances(scene: Scene, position: np.ndarray) -> tuple[float, float]:
     """Least and greatest distance of the scene's bounding box."""
     low, high = scene.bounds
-    far = float(np.linalg.norm(_corners(scene) - position, axis=1).max()) * 1.01 + 1e-9
+    far = float(np.linalg.norm(corners_of(scene) - position, axis=1).max()) * 1.01 + 1e-9
     return float(np.linalg.norm(np.maximum(np.maximum(low - position, position - high), 0))), far
 
 
