@@ -71,8 +71,8 @@ def shadow_error(
         shadowed, unshadowed: K independent batches of the exact radiance with and without shadow, A and B.
         shapes: (H, W) integers, which object a pixel shows; edges are then looked for within objects. None: one object.
         positions: (H, W, 3) metres; with `shapes` it tells where objects touch, and distances may be in metres.
-        edge, near: up to which distance from the true edge a pixel is at the edge, or near it, or near a contact; in
-            pixels.
+        edge, near: up to which distance from the true edge a pixel is at the edge, or near it or near a contact, in
+            pixels. Light near a contact counts there, at an edge too: all of a thin caster's shadow is edge.
         metres: `edge` and `near` are in metres, measured straight through space.
 
     Returns:
@@ -91,12 +91,13 @@ def shadow_error(
     shapes = np.zeros(arrives.shape, np.int32) if shapes is None else shapes
     ruler = _Ruler(positions if metres else None)
     from_edge = ruler.distance(shadow_edge(truth, arrives, shapes))
+    touched = np.zeros(arrives.shape, bool) if positions is None else contacts(shapes, positions)
+    at_contact = ruler.distance(touched) <= near
     places = np.full(arrives.shape, PLACES.index("away"))
     places[from_edge <= near] = PLACES.index("near")
-    if positions is not None:
-        touching = contacts(shapes, positions)
-        places[ruler.distance(touching) <= near] = PLACES.index("contact")
+    places[at_contact] = PLACES.index("contact")
     places[from_edge <= edge] = PLACES.index("edge")
+    places[at_contact & (error > 0)] = PLACES.index("contact")
     kinds = np.where(error > 0, 0, 1)
     cells = np.where(error == 0, -1, kinds * len(PLACES) + places)
     found = by_object(comparison, cells)

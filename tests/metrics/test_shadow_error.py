@@ -47,9 +47,9 @@ PLANTED = {
     "acne": (changed(SPOTS & (COLUMN > 45), 0.0), ("dark", "away")),
     "a leak": (changed(SPOTS & (COLUMN < 20), 0.3), ("lit", "away")),
     "an edge one pixel to the right": (changed(COLUMN == 32, 0.0), ("dark", "edge")),
-    "an edge one pixel to the left": (changed(COLUMN == 31, 1.0), ("lit", "edge")),
+    "an edge one pixel to the left": (changed((COLUMN == 31) & (ROW > 20), 1.0), ("lit", "edge")),
     "a filter's spill": (changed((COLUMN > 35) & (COLUMN < 39) & (ROW > 20), 0.8), ("dark", "near")),
-    "a shadow come loose": (changed((ROW > 7) & (ROW < 11) & (COLUMN < 20), 1.0), ("lit", "contact")),
+    "a shadow come loose": (changed((ROW > 7) & (ROW < 11) & (COLUMN < 32), 1.0), ("lit", "contact")),
     "a dark corner": (changed((ROW > 7) & (ROW < 11) & (COLUMN > 45), 0.5), ("dark", "contact")),
 }
 
@@ -73,7 +73,7 @@ def test_several_mistakes_share_the_squared_error():
 
 def test_within_a_penumbra_everything_is_at_the_edge():
     ramp = np.clip((COLUMN - 12) / 40, 0, 1)
-    found = split((ramp > 0.5).astype(float), ramp)
+    found = split((ramp > 0.5).astype(float), ramp, positions=None)
     assert set(shares(found)) == {("lit", "edge"), ("dark", "edge")}
 
 
@@ -102,7 +102,7 @@ def test_an_object_s_outline_is_neither_an_edge_nor_a_contact():
 
 def test_without_positions_nothing_touches():
     tested, _ = PLANTED["a shadow come loose"]
-    assert set(shares(split(tested, positions=None))) == {("lit", "away")}
+    assert set(shares(split(tested, positions=None))) == {("lit", place) for place in ("edge", "near", "away")}
 
 
 def test_noise_has_no_share():
