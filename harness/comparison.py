@@ -30,6 +30,7 @@ from lightmeter.realtime.renderer import Frame, Renderer
 from lightmeter.realtime.timing import Time, Times
 from lightmeter.reports import results as outcome
 from lightmeter.scenes.model import Scene
+from lightmeter.shadow_errors import shadow_errors
 from lightmeter.sides import MOST_SAMPLES, FramePoints, Sides, display_sides, effect_sides
 from lightmeter.substitution import players
 from lightmeter.truth import Truth
@@ -179,6 +180,7 @@ def compare(
         objects=object_errors(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),
+        shadows=() if bad.total() else shadow_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

@@ -1,5 +1,6 @@
 """The scene's triangles and textures on the device."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -66,13 +67,18 @@ class Solid:
         """A vertex array for a program that reads `position`."""
         return device.gl.vertex_array(program, [(self.positions, "3f", "position")], self.indices)
 
-    def ranges(self, excluded: int | None = None) -> list[tuple[int, int]]:
-        """(first, count) of the indices to draw: all but the excluded shape's."""
-        total = sum(count for _, count in self.spans.values())
-        if excluded not in self.spans:
-            return [(0, total)] if total else []
-        first, count = self.spans[excluded]
-        return [(a, n) for a, n in ((0, first), (first + count, total - first - count)) if n]
+    def ranges(self, shapes: Collection[int]) -> list[tuple[int, int]]:
+        """(first, count) of the indices of some shapes, in as few pieces as there can be."""
+        pieces: list[tuple[int, int]] = []
+        for shape, (first, count) in self.spans.items():
+            if shape not in shapes:
+                continue
+            start, length = pieces[-1] if pieces else (0, 0)
+            if pieces and start + length == first:
+                pieces[-1] = start, length + count
+            else:
+                pieces.append((first, count))
+        return pieces
 
 
 class Geometry:

@@ -1,6 +1,6 @@
 """The frame graph, compiled in plain Python: which effects draw what, in which order, and what is left out and why."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,7 +22,7 @@ class Choice:
 
     Attributes:
         only: take just these effects; empty: all.
-        without: leave these out.
+        without: leave these out; another effect takes the place of one only where it is asked for.
         use: prefer these among effects for the same term.
         settings: knob values by effect and knob.
     """
@@ -95,13 +95,14 @@ def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | Non
     missing = missing_terms(scene)
     candidates, left_out = _candidates(scene, known, choice, missing)
 
-    steps, uncovered = _steps(scene, candidates, missing)
+    steps, uncovered = _steps(scene, candidates, missing, choice)
     taken = {step.effect for step in steps}
     for term in (t for t in TERMS if TERMS[t].scope == "gbuffer" and t not in missing):
-        variant = next((effect.name for effect in candidates if term in effect.terms), None)
-        taken |= {variant} if variant else set()
+        variant = _first(candidates, term, choice)
+        taken |= {variant.name} if variant else set()
         uncovered += [] if variant else [term]
-    left_out += [_superseded(scene, e, steps) for e in candidates if e.name not in taken]
+    idle = [e for e in candidates if e.name not in taken and e.name not in choice.without]
+    left_out += [_superseded(scene, effect, steps, candidates, choice) for effect in idle]
     left_out += [LeftOut(f"term {term}", why) for term, why in missing.items()]
     used = {name: (known[name], settings[name]) for name in known if name in taken}
     channels = frozenset(channel for effect, _ in used.values() for channel in effect.channels)
@@ -115,25 +116,36 @@ def _check_names(choice: Choice, known: Mapping[str, Effect]) -> None:
 
 
 def _candidates(scene: Scene, known: Mapping[str, Effect], choice: Choice, missing: Mapping[str, str]):
-    """The effects this scene needs and the user allows, the preferred ones first; and the others, with reasons."""
+    """The effects this scene needs, the preferred ones first; and those that take no part, with reasons.
+
+    What the user leaves out is among both: it still holds the place of what would be taken by default.
+    """
     kept, left_out = [], []
     for name, effect in known.items():
         absent = [missing[term] for term in effect.terms if term in missing]
+        needless = absent[0] if len(absent) == len(effect.terms) else effect.unneeded(scene)
         if choice.only and name not in choice.only:
             left_out.append(LeftOut(name, "not among the effects asked for"))
-        elif name in choice.without:
-            left_out.append(LeftOut(name, "left out as asked"))
-        elif len(absent) == len(effect.terms):
-            left_out.append(LeftOut(name, absent[0]))
-        elif reason := effect.unneeded(scene):
-            left_out.append(LeftOut(name, reason))
-        else:
+            continue
+        if name in choice.without or needless:
+            left_out.append(LeftOut(name, "left out as asked" if name in choice.without else needless))
+        if not needless:
             kept.append(effect)
     kept.sort(key=lambda e: (e.name not in choice.use, e.rank, e.name))
     return kept, left_out
 
 
-def _steps(scene: Scene, candidates: list[Effect], missing: Mapping[str, str]) -> tuple[list[Step], list[str]]:
+def _first(
+    candidates: list[Effect], term: str, choice: Choice, fits: Callable[[Effect], bool] = lambda _effect: True
+) -> Effect | None:
+    """The effect that gives a term: the first candidate; none where that one was left out."""
+    found = next((effect for effect in candidates if term in effect.terms and fits(effect)), None)
+    return None if found is None or found.name in choice.without else found
+
+
+def _steps(
+    scene: Scene, candidates: list[Effect], missing: Mapping[str, str], choice: Choice
+) -> tuple[list[Step], list[str]]:
     """The steps in order: light by light, then what belongs to the frame, then the display; and terms without one."""
     steps: list[Step] = []
     uncovered: dict[str, None] = {}
@@ -141,11 +153,10 @@ def _steps(scene: Scene, candidates: list[Effect], missing: Mapping[str, str]) -
     def first(term: str, light: int | None = None) -> Effect | None:
         if term in missing:
             return None
-        for effect in candidates:
-            if term in effect.terms and (light is None or effect.lights(scene, scene.all_lights[light])):
-                return effect
-        uncovered.setdefault(term)
-        return None
+        found = _first(candidates, term, choice, lambda e: light is None or e.lights(scene, scene.all_lights[light]))
+        if found is None:
+            uncovered.setdefault(term)
+        return found
 
     for light in range(len(scene.all_lights)):
         visibility, direct = first("visibility", light), first("direct", light)
@@ -173,7 +184,7 @@ def _steps(scene: Scene, candidates: list[Effect], missing: Mapping[str, str]) -
     return steps, list(uncovered)
 
 
-def _superseded(scene: Scene, effect: Effect, steps: list[Step]) -> LeftOut:
+def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: list[Effect], choice: Choice) -> LeftOut:
     """Why a candidate was not taken."""
     lit = any(effect.lights(scene, light) for light in scene.all_lights)
     if not lit and any(TERMS[term].scope == "light" for term in effect.terms):
@@ -181,4 +192,7 @@ def _superseded(scene: Scene, effect: Effect, steps: list[Step]) -> LeftOut:
     others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
     if others:
         return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(effect.terms)} already")
+    out = [e.name for e in candidates if e.name in choice.without and set(e.terms) & set(effect.terms)]
+    if out:
+        return LeftOut(effect.name, f"takes the place of {', '.join(out)} where it is asked for: --use {effect.name}")
     return LeftOut(effect.name, f"nothing in this frame reads {', '.join(effect.terms)}")

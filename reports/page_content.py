@@ -13,6 +13,7 @@ from lightmeter.reports.metric_words import beside_the_mean, in_order, label, pr
 from lightmeter.reports.object_content import object_content
 from lightmeter.reports.percentages import percent_of
 from lightmeter.reports.results import Effect, Metrics, Results, Timing
+from lightmeter.reports.shadow_content import shadow_content
 from lightmeter.reports.significant import show_number
 
 _HEADLINE = ("nrmse", "rmse", "flip", "flip_hdr", "ssim")
@@ -31,6 +32,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "candidates": candidates_content(results, shown),
         "attribution": attribution_content(results, shown),
         "objects": object_content(results.objects),
+        "shadows": shadow_content(results.shadows),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.shadow_error import ShadowPart
 
 SCHEMA = 1
 
@@ -144,6 +145,24 @@ class ObjectError:
 
 
 @dataclass(frozen=True)
+class LightShadow:
+    """What kind of mistake a light's shadow makes.
+
+    Attributes:
+        effect: which gives it.
+        light: the light's name.
+        rmse: in radiance, over all pixels.
+        parts: "lit" (but should be dark) or "dark" (but should be lit), then the place, to its part of the squared
+            error; see `metrics.shadow_error`.
+    """
+
+    effect: str
+    light: str
+    rmse: Measurement
+    parts: Mapping[str, Mapping[str, ShadowPart]]
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """Something the scene or the plan holds and the comparison does not, and why."""
 
@@ -274,6 +293,7 @@ class Results:
     attribution: Attribution | None = None
     display_attribution: Attribution | None = None
     objects: tuple[ObjectError, ...] = ()
+    shadows: tuple[LightShadow, ...] = ()
     candidates: tuple[Candidate, ...] = ()
     failed_candidates: tuple[FailedCandidate, ...] = ()
     schema: int = SCHEMA

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.shadow_error import ShadowPart
 from lightmeter.reports.results import (
     SCHEMA,
     Attribution,
@@ -30,6 +31,7 @@ from lightmeter.reports.results import (
     Frame,
     LayerError,
     LeftOut,
+    LightShadow,
     NonFinite,
     ObjectError,
     PassTime,
@@ -101,6 +103,7 @@ def from_json(text: str) -> Results:
         attribution=top.get("attribution", None).maybe(_attribution),
         display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
+        shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
             FailedCandidate(item.get("name").text(), item.get("why").text())
@@ -289,6 +292,22 @@ def _object_error(node: _Node) -> ObjectError:
         metrics=_metrics(node.get("metrics")),
         share=_measurement(node.get("share")),
     )
+
+
+def _light_shadow(node: _Node) -> LightShadow:
+    return LightShadow(
+        effect=node.get("effect").text(),
+        light=node.get("light").text(),
+        rmse=_measurement(node.get("rmse")),
+        parts={
+            kind: {name: _shadow_part(part) for name, part in places.nodes().items()}
+            for kind, places in node.get("parts").nodes().items()
+        },
+    )
+
+
+def _shadow_part(node: _Node) -> ShadowPart:
+    return ShadowPart(node.get("pixels").integer(), _measurement(node.get("share")))
 
 
 def _candidate(node: _Node) -> Candidate:

@@ -16,6 +16,7 @@ from lightmeter.reports.metric_words import TAILS, beside_the_mean, error_phrase
 from lightmeter.reports.object_content import by_share
 from lightmeter.reports.percentages import in_percent, percent_of
 from lightmeter.reports.results import Attribution, ObjectError, Results
+from lightmeter.reports.shadow_content import shadow_line
 from lightmeter.reports.shown_names import printable
 from lightmeter.reports.significant import show_measurement
 from lightmeter.reports.terminal_cells import bare, full, milliseconds, number, reason
@@ -48,6 +49,7 @@ def comparison(results: Results) -> Group:
         parts += [_fix_first(results, results.attribution, name) for name, total in totals if _finite(total)]
     if worst := by_share([one for one in results.objects if _finite(one.share)]):
         parts.append(_object(worst[0]))
+    parts += [reason(*shadow_line(shadow)) for shadow in results.shadows]
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))

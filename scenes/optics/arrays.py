@@ -80,11 +80,6 @@ def cos(x: Array) -> Array:
     return _drjit().cos(x) if _is_drjit(x) else np.cos(x)
 
 
-def arctan2(y: Array, x: Array) -> Array:
-    """The angle of (x, y), −π…π."""
-    return _drjit().atan2(y, x) if _is_drjit(x, y) else np.arctan2(y, x)
-
-
 def dot(a: Array, b: Array) -> Array:
     """Scalar product over the components."""
     return _drjit().dot(a, b) if _is_drjit(a, b) else np.sum(np.multiply(a, b), axis=0)

@@ -5,13 +5,14 @@ from pathlib import Path
 
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.shaders import SHARED
+from lightmeter.realtime.shadows.twin import TWINS as SHADOW_TWINS
 from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS
 from lightmeter.realtime.twin import Twin
 
 
 def declared_twins() -> list[tuple[Path, Twin]]:
     """(folder, twin) of every declaration."""
-    found = [(SHARED, twin) for twin in SHARED_TWINS]
+    found = [(SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS)]
     for effect in effects().values():
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")

@@ -70,6 +70,7 @@ def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray],
         "vec4 wide(bool x) { return vec4(x); }",
         "vec4 wide(vec2 x) { return vec4(x, 0.0, 0.0); }",
         "vec4 wide(vec3 x) { return vec4(x, 0.0); }",
+        "vec4 wide(vec4 x) { return x; }",
         "void main() {",
         "    ivec2 place = ivec2(gl_FragCoord.xy);",
         *reads,
@@ -87,7 +88,7 @@ def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray],
             program[name].value = unit
     set_uniforms(program, dict(twin.uniforms))
     device.draw(device.fullscreen(program), 3)
-    widths = [{"vec2": 2, "vec3": 3}.get(t, 1) for t in (twin.result, *(a.type for a in outs))]
+    widths = [{"vec2": 2, "vec3": 3, "vec4": 4}.get(t, 1) for t in (twin.result, *(a.type for a in outs))]
     results = []
     for target, width in zip(targets, widths, strict=True):
         flat = np.frombuffer(target.read(), np.float32).reshape(-1, 4)[:n, :width]

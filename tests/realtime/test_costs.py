@@ -75,6 +75,42 @@ def test_every_part_of_a_scene_adds_what_it_needs_and_no_more():
     assert sky[2] == two[2] + 1
 
 
+TECHNIQUES = {  # for one light: (shaders, textures, draws of the map) beyond the comparison's own shader, buffer, draw
+    "shadow_map": (LAMP, (1, 1, 6)),
+    "variance_shadow_map": (LAMP, (2, 3, 6 + 2)),  # casters and the mean; the map, its depth and one between
+    "exponential_shadow_map": (LAMP, (2, 3, 6 + 2)),
+    "moment_shadow_map": (LAMP, (2, 3, 6 + 2)),
+    "cascaded_shadow_map": (SUN, (1, 1, 4)),
+}
+
+
+@pytest.mark.parametrize("name", TECHNIQUES)
+def test_a_shadow_technique_costs_its_map_and_a_comparison(name):
+    """And nothing where one flat shape cannot stand in its own light, or where no light is of its kind."""
+    light, (shaders, textures, draws) = TECHNIQUES[name]
+    ball = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
+    lit = scene_of(facing(WHITE), ball, lights=(light,))
+    none = counted(lit, Choice(without=("shadow_map",)))
+    used = counted(lit, Choice(use=(name,)), frames=2)
+    assert used[1]["shaders"] - none[1]["shaders"] == shaders + 1
+    assert used[1]["textures"] - none[1]["textures"] == textures + 1
+    assert used[2] - none[2] == draws + 1
+    flat = scene_of(facing(WHITE), lights=(light,))
+    assert counted(flat, Choice(use=(name,))) == counted(flat, Choice(without=("shadow_map",)))
+    dark = scene_of(facing(WHITE), ball, radiance=(1, 1, 1))
+    assert counted(dark, Choice(use=(name,))) == counted(dark, Choice(without=("shadow_map",)))
+
+
+def test_soft_shadows_cost_nothing_without_an_emissive_surface():
+    ball = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
+    lit = scene_of(facing(WHITE), ball, lights=(LAMP,))
+    assert counted(lit, Choice(use=("pcss",))) == counted(lit)
+    glow = Shape("glow", shapes.rectangle(0.2, 0.2), Material("glow", emissive=(3, 3, 3)), moved(x=0.5, z=2.0))
+    with_lamp = scene_of(facing(WHITE), ball, glow)
+    assert counted(with_lamp, Choice(use=("pcss",))) == counted(with_lamp)  # in number; its shader costs more
+    assert counted(lit, Choice(use=("cascaded_shadow_map",))) == counted(lit)
+
+
 def test_textures_are_uploaded_once_and_only_those_that_are_read():
     texture = Texture(image([[200]]))
     material = Material("a", base_color_texture=texture)

@@ -29,12 +29,13 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 
 NOT_TWINNED = {
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
-    "shadow_map.glsl": {"filtered", "visibility"},  # read the map: test_shadow_maps.py
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py
+    "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
+    "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
-"""Plumbing that reads textures, and what is made of it alone."""
+"""Plumbing; what reads a texture, or calls what does, is told by its text."""
 
 TWINS = declared_twins()
 NAMES = [f"{twin.file}-{twin.function}" for _, twin in TWINS]
@@ -167,6 +168,17 @@ def test_a_changed_constant_is_noticed(device, folder, twin):
         assert share > 1, f"{number} in {twin.function} may change unnoticed"
 
 
+def readers(definitions: dict[str, str]) -> set[str]:
+    """The functions that read a texture, by themselves or by calling one of these that does."""
+    found: set[str] = set()
+    while True:
+        calls = "|".join(("texelFetch", "texture", "textureLod", *found))
+        more = {n for n, text in definitions.items() if re.search(rf"\b(?:{calls})\(", text.partition("{")[2])}
+        if more == found:
+            return found
+        found = more
+
+
 def test_every_function_has_a_twin():
     folders = {"shared": SHARED} | {name: effect.folder for name, effect in effects().items()}
     held = {(twin.file, twin.function) for _, twin in TWINS}
@@ -174,8 +186,9 @@ def test_every_function_has_a_twin():
     for owner, folder in folders.items():
         for path in sorted(folder.glob("*.glsl")):
             terms = set(effects()[owner].terms) if owner in effects() else set()
-            for name in functions(path.read_text(encoding="utf-8")):
-                plumbing = NOT_TWINNED.get(path.name, set())
+            definitions = functions(path.read_text(encoding="utf-8"))
+            plumbing = NOT_TWINNED.get(path.name, set()) | readers(definitions)
+            for name in definitions:
                 if name not in plumbing and name not in terms & set(TERMS) and (path.name, name) not in held:
                     missing.append(f"{path.name}: {name}")
     assert not missing

@@ -138,6 +138,21 @@ def test_settings_are_read_and_checked():
     assert plan.effects["srgb"][1] == {}
 
 
+def test_what_is_left_out_is_not_replaced_unasked():
+    """Leaving out a term's default leaves the term out; what the scene does not need leaves its place to the next."""
+    known = {e.name: e for e in (Effect("a", ("encode",), "", ""), Effect("b", ("encode",), "", "", rank=1))}
+    scene = scene_of(BALL)
+    assert plan_of(scene, None, known).effect_of("encode") == "a"
+    out = plan_of(scene, Choice(without=("a",)), known)
+    assert out.effect_of("encode") is None and "encode" in out.not_approximated
+    assert why(out, "a") == "left out as asked"
+    assert why(out, "b") == "takes the place of a where it is asked for: --use b"
+    assert plan_of(scene, Choice(without=("a",), use=("b",)), known).effect_of("encode") == "b"
+    assert plan_of(scene, Choice(only=("b",)), known).effect_of("encode") == "b"
+    needless = known | {"a": Effect("a", ("encode",), "", "", unneeded=lambda _scene: "no need")}
+    assert plan_of(scene, None, needless).effect_of("encode") == "b"
+
+
 @pytest.mark.parametrize(
     ("choice", "message"),
     [
@@ -150,7 +165,10 @@ def test_settings_are_read_and_checked():
         (Choice(settings={"shadow_map": {"resolution": "many"}}), "expected a whole number, got 'many'"),
         (Choice(settings={"shadow_map": {"resolution": 2.5}}), "expected a whole number, got 2.5"),
         (Choice(settings={"shadow_map": {"resolution": 1}}), "within [16, 8192], got 1"),
-        (Choice(settings={"shadow_map": {"filter": "soft"}}), "expected one of hard, pcf3, got 'soft'"),
+        (
+            Choice(settings={"shadow_map": {"filter": "soft"}}),
+            "expected one of hard, pcf3, pcf5, pcf7, pcf9, poisson, got 'soft'",
+        ),
         (Choice(settings={"shadow_map": {"bias": "nan"}}), "within [0, 100], got 'nan'"),
         (Choice(settings={"shadow_map": {"bias": float("inf")}}), "within [0, 100]"),
         (Choice(settings={"narkowicz": {"prescale": True}}), "expected a number, got True"),

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.shadow_error import KINDS, PLACES, ShadowPart
 from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.pictures import Pair, flip_error, rms_error, share_map, signed_error
 from lightmeter.reports.results import (
@@ -17,6 +18,7 @@ from lightmeter.reports.results import (
     Frame,
     LayerError,
     LeftOut,
+    LightShadow,
     NonFinite,
     ObjectError,
     PassTime,
@@ -190,6 +192,20 @@ def make_objects(count: int = 4) -> tuple[ObjectError, ...]:
         )
         for name, material, pixels, share in found
     )  # fmt: skip
+
+
+def make_shadows() -> tuple[LightShadow, ...]:
+    """A sun whose shadow has acne and an edge in the wrong place, and a lamp without an error."""
+    kinds = {kind: dict.fromkeys(PLACES, ShadowPart(0, Measurement(0.0, how="no pixel"))) for kind in KINDS}
+    sun = {kind: dict(places) for kind, places in kinds.items()}
+    sun["dark"] |= {"away": ShadowPart(1234, between(0.62, 0.02)), "edge": ShadowPart(88, between(0.21, 0.01))}
+    sun["lit"] |= {"contact": ShadowPart(1, between(0.166, 0.01)), "near": ShadowPart(3, between(0.004, 0.001))}
+    lamp = {kind: dict(places) for kind, places in kinds.items()}
+    lamp["lit"]["edge"] = ShadowPart(0, Measurement(math.nan))
+    return (
+        LightShadow("shadow_map", "sun", between(0.0404, 0.001, RADIANCE), sun),
+        LightShadow("pcss", "lamp", between(0.0, 0.0, RADIANCE), lamp),
+    )
 
 
 def make_results(size: int = 96, broken: bool = False, scene: str = "ball-on-floor") -> Results:

@@ -9,7 +9,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.results import Frame, Results
 from lightmeter.reports.results_json import ResultsError, from_json, to_json, write_json
 
-from .synthetic_pairs import make_candidates, make_failed, make_results
+from .synthetic_pairs import make_candidates, make_failed, make_results, make_shadows
 
 
 def test_results_come_back_as_they_were() -> None:
@@ -20,6 +20,15 @@ def test_results_come_back_as_they_were() -> None:
 def test_candidates_come_back_as_they_were() -> None:
     results = dataclasses.replace(make_results(), candidates=make_candidates(), failed_candidates=make_failed())
     assert from_json(to_json(results)) == results
+
+
+def test_shadows_come_back_as_they_were() -> None:
+    results = dataclasses.replace(make_results(), shadows=make_shadows()[:1])
+    assert from_json(to_json(results)) == results
+    part = json.loads(to_json(results))["shadows"][0]["parts"]["dark"]["away"]
+    assert (part["pixels"], part["share"]["value"]) == (1234, 0.62)
+    with pytest.raises(ResultsError, match=r"shadows\[0\].parts.dark.away.pixels: expected a whole number"):
+        from_json(to_json(results).replace('"pixels": 1234', '"pixels": "many"'))
 
 
 def test_document_has_the_stable_keys() -> None:

@@ -1,4 +1,6 @@
-// A masked shape as the light sees it: alpha from the factor, the vertices and the texture, as in gbuffer.frag.
+// A shape as the light sees it. A masked one has holes: alpha from the factor, the vertices and the texture, as in
+// gbuffer.frag.
+#ifdef MASKED
 #include "textures.glsl"
 uniform vec4 base_color_factor;
 uniform float alpha_cutoff;
@@ -12,8 +14,11 @@ in vec2 uv1;
 in vec4 vertex_color;
 #endif
 TEXTURE_DECLARATIONS
+#endif
+KEPT
 
 void main() {
+#ifdef MASKED
     float alpha = base_color_factor.a;
 #ifdef HAS_COLOR
     alpha *= vertex_color.a;
@@ -22,4 +27,6 @@ void main() {
     alpha *= look_up_base_color().a;
 #endif
     if (alpha < alpha_cutoff) discard;
+#endif
+    keep();
 }

@@ -28,19 +28,27 @@ class ShadowViews:
     Attributes:
         matrices: (1 or 6, 4, 4) float64, world to clip space.
         position: (4,) the light: position and 1, or the direction towards it and 0.
-        texel: the world size of a texel: metres, or metres per metre of distance from the light (w = 1).
+        texels: per view the world size of a texel: metres, or metres per metre of distance from the light (w = 1).
+        depths: least and greatest distance of the scene from the light; for w = 0 along its direction from the origin.
         excluded: a shape that must not shadow itself, the emitter; or None.
     """
 
     matrices: np.ndarray
     position: np.ndarray
-    texel: float
+    texels: np.ndarray
+    depths: tuple[float, float]
     excluded: int | None = None
 
     @property
-    def is_cube(self) -> bool:
-        """Whether there are six faces."""
-        return len(self.matrices) == 6
+    def planes(self) -> tuple[float, float]:
+        """Distances of the near and far plane of perspective views."""
+        return _clipping(self.depths)
+
+    @property
+    def tiles(self) -> tuple[int, int]:
+        """Columns and rows of the map: the views lie beside each other, row by row."""
+        columns = math.ceil(math.sqrt(len(self.matrices)))
+        return columns, math.ceil(len(self.matrices) / columns)
 
 
 def shadow_views(scene: Scene, light: Light, resolution: int, border: int) -> ShadowViews:
@@ -61,45 +69,72 @@ def shadow_views(scene: Scene, light: Light, resolution: int, border: int) -> Sh
     return _cube(scene, np.array(light.position, dtype=np.float64), used, border, None)
 
 
-def _corners(scene: Scene) -> np.ndarray:
+def corners_of(scene: Scene) -> np.ndarray:
+    """(8, 3) corners of the scene's bounding box."""
     low, high = scene.bounds
     return np.array([[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)])
 
 
 def _parallel(scene: Scene, direction: np.ndarray, used: int, border: int) -> ShadowViews:
-    view = _look(np.zeros(3), direction, _any_up(direction))
-    corners = _corners(scene) @ view[:3, :3].T
+    view = light_axes(direction)
+    corners = corners_of(scene) @ view[:3, :3].T
     low, high = corners.min(axis=0), corners.max(axis=0)
+    matrix, texel = parallel_view(view, low, high, used, border)
+    return ShadowViews(matrix[None], np.append(-direction, 0.0), np.array([texel]), (-high[2], -low[2]))
+
+
+def light_axes(direction: np.ndarray) -> np.ndarray:
+    """(4, 4) world to axes that look along a direction: −Z; where X and Y lie does not matter."""
+    return _look(np.zeros(3), direction, _any_up(direction))
+
+
+def parallel_view(
+    view: np.ndarray, low: np.ndarray, high: np.ndarray, used: int, border: int
+) -> tuple[np.ndarray, float]:
+    """The view along parallel rays that shows a box, (4, 4) world to clip space, and the size of its texels in metres.
+
+    Args:
+        view: what turns the world to the rays' axes.
+        low, high: the box's corners along those axes.
+        used, border: texels along a side that show it, and on either side around them.
+    """
     # A flat scene still gets some depth, and rounding does not push the outermost points outside.
-    size = max(float(np.ptp(corners)), 1e-6)
+    size = max(float(np.max(high) - np.min(low)), 1e-6)
     margin = np.maximum(high - low, 1e-6 * size) * (border / used) + 1e-5 * size
     low, high = low - margin, high + margin
     extent = high - low
     matrix = np.diag([2 / extent[0], 2 / extent[1], -2 / extent[2], 1.0])
     matrix[:3, 3] = -(high + low) / extent * np.array([1, 1, -1])
-    return ShadowViews((matrix @ view)[None], np.append(-direction, 0.0), float(max(extent[:2])) / (used + 2 * border))
+    return matrix @ view, float(max(extent[:2])) / (used + 2 * border)
 
 
 def _cone(scene: Scene, light: SpotLight, used: int, border: int) -> ShadowViews:
     position, direction = np.array(light.position), np.array(light.direction)
     tangent = math.tan(light.outer)
-    projection = _perspective(tangent * (1 + 2 * border / used), *_range(scene, position))
+    depths = _distances(scene, position)
+    projection = _perspective(tangent * (1 + 2 * border / used), *_clipping(depths))
     matrix = projection @ _look(position, direction, _any_up(direction))
-    return ShadowViews(matrix[None], np.append(position, 1.0), 2 * tangent / used)
+    return ShadowViews(matrix[None], np.append(position, 1.0), np.array([2 * tangent / used]), depths)
 
 
 def _cube(scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None) -> ShadowViews:
-    projection = _perspective(1 + 2 * border / used, *_range(scene, position))
+    depths = _distances(scene, position)
+    projection = _perspective(1 + 2 * border / used, *_clipping(depths))
     faces = [projection @ _look(position, np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES]
-    return ShadowViews(np.stack(faces), np.append(position, 1.0), 2.0 / used, excluded)
+    return ShadowViews(np.stack(faces), np.append(position, 1.0), np.full(6, 2.0 / used), depths, excluded)
 
 
-def _range(scene: Scene, position: np.ndarray) -> tuple[float, float]:
-    """Near and far distance that hold the scene; a depth map of 24 bits still resolves 1e-6 of the far one."""
+def _distances(scene: Scene, position: np.ndarray) -> tuple[float, float]:
+    """Least and greatest distance of the scene's bounding box."""
     low, high = scene.bounds
-    far = float(np.linalg.norm(_corners(scene) - position, axis=1).max()) * 1.01 + 1e-9
-    outside = float(np.linalg.norm(np.maximum(np.maximum(low - position, position - high), 0)))
-    return max(outside / 2, far * 1e-3), far
+    far = float(np.linalg.norm(corners_of(scene) - position, axis=1).max()) * 1.01 + 1e-9
+    return float(np.linalg.norm(np.maximum(np.maximum(low - position, position - high), 0))), far
+
+
+def _clipping(distances: tuple[float, float]) -> tuple[float, float]:
+    """Near and far planes that hold the scene; a depth map of 24 bits still resolves 1e-6 of the far distance."""
+    least, far = distances
+    return max(least / 2, far * 1e-3), far
 
 
 def _perspective(tangent: float, near: float, far: float) -> np.ndarray:
