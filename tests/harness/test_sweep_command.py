@@ -130,7 +130,7 @@ def test_supersampling_is_judged_at_all_its_samples():
 
 
 def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
-    chosen = ("--only", "cook_torrance,constant_ambient,narkowicz,srgb")
+    chosen = ("--only", "lambert,constant_ambient,narkowicz,srgb")
     found = run("sweep", "posts", "--all", "--size", "16x16", *chosen, *BRIEF, "--no-store")
     assert found.code == 0, found.err
     document = json.loads((tmp_path / "out" / "sweep.json").read_text())
