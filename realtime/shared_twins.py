@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import frames, lights, material, microfacet
+from lightmeter.scenes.optics import arrays, frames, lights, material, microfacet
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -52,6 +52,34 @@ def any_point(**given) -> material.MaterialPoint:
 def brdf(base_color, metallic, roughness, specular, n, v, l):  # noqa: E741 (l: light, as in the field)
     """f(v, l)·(n·l) of the whole material."""
     return material.evaluate(point(base_color, metallic, roughness, specular), n, v, l)
+
+
+def cosines_of_half(n, v, l):  # noqa: E741
+    """(n·h, |n × h|², v·h) of the half vector."""
+    h = arrays.normalize(v + l)
+    across = np.cross(n, h, axis=0)
+    return stack(np.sum(n * h, axis=0), np.sum(across * across, axis=0), np.sum(v * h, axis=0))
+
+
+def specular_lobe(base_color, metallic, roughness, specular, n, v, l):  # noqa: E741
+    """F·D·V·(n·l): the whole material less its base, f(base) = (1 − F)·c_diff/π·(n·l)."""
+    material_point = point(base_color, metallic, roughness, specular)
+    n_dot_v, n_dot_l = np.sum(n * v, axis=0), np.sum(n * l, axis=0)
+    n_dot_h, sin2_h, v_dot_h = cosines_of_half(n, v, l)
+    d = microfacet.d_ggx(n_dot_h, sin2_h, material_point.alpha)
+    visible = microfacet.v_smith_ggx_correlated(
+        np.maximum(n_dot_v, 1e-7), np.maximum(n_dot_l, 1e-7), material_point.alpha
+    )
+    fresnel = microfacet.f_schlick(v_dot_h, material_point.f0, material_point.f90)
+    return np.where((n_dot_v > 0) & (n_dot_l > 0), fresnel * d * visible * n_dot_l, 0)
+
+
+def diffuse_lobe(base_color, metallic, specular, v, l):  # noqa: E741
+    """(1 − F)·c_diff/π."""
+    material_point = point(base_color, metallic, 1.0, specular)
+    v_dot_h = np.sum(v * arrays.normalize(v + l), axis=0)
+    fresnel = microfacet.f_schlick(v_dot_h, material_point.f0, material_point.f90)
+    return (1 - fresnel) * material_point.diffuse / np.pi
 
 
 def near_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
@@ -201,6 +229,45 @@ TWINS = (
         "(7) with F0 (5); and in the sum 1 − F, c_diff, 1/π, D·V, F·DV, the sum, n·l: six beyond",
         arrange=near_the_mirror,
         signs=brdf_signs,
+    ),
+    Twin(
+        "lobes.glsl",
+        "lobe_cosines",
+        "vec3",
+        (towards("n"), towards("v"), towards("l")),
+        cosines_of_half,
+        roundings=1 + 3 + 3 + 2 + 3,
+        why="v + l; its square (3), inversesqrt (2) and the product; n × h (2) and its square (3)",
+    ),
+    Twin(
+        "lobes.glsl",
+        "specular_lobe",
+        "vec3",
+        (
+            color("base_color"),
+            unit("metallic"),
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            unit("specular"),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        specular_lobe,
+        roundings=1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 7 + 5 + 3,
+        why="as gltf_brdf: the half vector (12), D (16), V (12.5), F (7) with F0 (5), and three products",
+        arrange=near_the_mirror,
+        signs=brdf_signs,
+    ),
+    Twin(
+        "lobes.glsl",
+        "diffuse_lobe",
+        "vec3",
+        (color("base_color"), unit("metallic"), unit("specular"), towards("v"), towards("l")),
+        diffuse_lobe,
+        roundings=1 + 3 + 3 + 2 + 1 + 7 + 5 + 1 + 2 + 3,
+        why="v + l, a square (3), a scalar product (3), inversesqrt (2) and the product; F (7) with F0 (5); 1 − F, "
+        "c_diff (2), 1/π and two products",
+        cancels=1.0,
     ),
     Twin(
         "lights.glsl",

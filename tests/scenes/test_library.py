@@ -13,7 +13,7 @@ from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.load import load
 from lightmeter.scenes.toml import schema
 
-NAMES = ("control", "cornell-box", "grid-sun", "metal-rough-grid", "plane", "posts", "torus")
+NAMES = ("area-lights", "control", "cornell-box", "grid-sun", "metal-rough-grid", "plane", "posts", "torus")
 
 
 def test_names_and_summaries():
