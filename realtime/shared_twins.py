@@ -119,6 +119,11 @@ def spot(cos_angle, cos_inner, cos_outer):
     return lights.spot_attenuation(cos_angle, np.arccos(cos_inner), np.arccos(cos_outer))
 
 
+def window(inverse_square, inverse_range_square):
+    """The window from the range's inverse square; 0 is no range."""
+    return np.maximum(1 - (inverse_range_square / np.maximum(inverse_square, 1e-18)) ** 2, 0)
+
+
 def transformed(uv, row_u, row_v):
     """Two rows times (u, v, 1)."""
     return stack(row_u[0] * uv[0] + row_u[1] * uv[1] + row_u[2], row_v[0] * uv[0] + row_v[1] * uv[1] + row_v[2])
@@ -281,6 +286,19 @@ TWINS = (
         light_towards,
         roundings=1 + 3 + 2.5 + 1,
         why="the difference, a product and two sums, the division (2.5) or inversesqrt (2) and a product",
+    ),
+    Twin(
+        "lights.glsl",
+        "range_window",
+        "float",
+        (
+            Argument("inverse_square", "float", logarithmic(1e-4, 1e4), (0.0, 1.0)),
+            Argument("inverse_range_square", "float", logarithmic(1e-4, 1e4), (0.0, 1.0)),
+        ),
+        window,
+        roundings=2.5 + 1 + 1,
+        why="the division (2.5), the square and the difference",
+        cancels=1.0,
     ),
     Twin(
         "lights.glsl",
