@@ -91,6 +91,16 @@ class Device:
         texture.repeat_x = texture.repeat_y = False
         return texture
 
+    def table(self, values: np.ndarray):
+        """A texture of (H, W, 4) float32 that is interpolated linearly and held at its edges; row 0 at coordinate 0."""
+        self.counts["textures"] += 1
+        height, width, components = values.shape
+        data = np.ascontiguousarray(values, np.float32).tobytes()
+        texture = self.gl.texture((width, height), components, data, alignment=1, dtype="f4")
+        texture.filter = (self.gl.LINEAR, self.gl.LINEAR)
+        texture.repeat_x = texture.repeat_y = False
+        return texture
+
     def framebuffer(self, colors: Iterable[Any], depth: Any = None):
         """A framebuffer over existing textures."""
         return self.gl.framebuffer(list(colors), depth)

@@ -112,6 +112,10 @@ class Effect:
         lights: which lights it handles, for terms of a light.
         unneeded: why this scene does not need it; "" where it does.
         uniforms: values for its shader besides its knobs, from scene, knobs and light (None outside lights).
+        defines: what its shader is compiled with, from the knobs: a choice picks a permutation, and what is not chosen
+            costs nothing.
+        tables: (H, W, 4) float32 arrays that its shader looks up with linear interpolation, from the knobs, by the
+            sampler's name.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
         folder: where its GLSL lies; found by discovery.
     """
@@ -126,6 +130,8 @@ class Effect:
     lights: Callable[[Scene, Light], bool] = lambda _scene, _light: True
     unneeded: Callable[[Scene], str] = always
     uniforms: Callable[[Scene, Knobs, Light | None], dict[str, Any]] = lambda _scene, _knobs, _light: {}
+    defines: Callable[[Knobs], dict[str, object]] = lambda _knobs: {}
+    tables: Callable[[Knobs], dict[str, np.ndarray]] = lambda _knobs: {}
     offsets: Callable[[Knobs], np.ndarray] | None = None
     folder: Path = field(default=Path(), compare=False)
 

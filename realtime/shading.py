@@ -7,6 +7,7 @@ from lightmeter.scenes.terms import TERMS
 
 from .effect import Effect, Knobs
 from .graph import FACTORS, Step
+from .light_bounds import Rectangle, reached
 from .projection import viewer
 from .shaders import Source, source
 from .stage import Stage
@@ -27,19 +28,40 @@ class ShadingPass:
         self._stage, self._effect, self._knobs, self._separate = stage, effect, knobs, separate
         self._programs: dict[tuple, Any] = {}
         self._uniforms: dict[Step, Uniforms] = {}
+        self._parts: dict[Step, Rectangle | None] = {}
+        self._tables = {name: stage.device.table(values) for name, values in effect.tables(knobs).items()}
         self.own: Any = None
         if (effect.folder / "passes.py").is_file():
             module = import_module(f"{__package__}.effects.{effect.name}.passes")
             self.own = module.Passes(stage, knobs, effect.folder)
 
+    @property
+    def has_map(self) -> bool:
+        """Whether the effect draws something beforehand for each light."""
+        return hasattr(self.own, "draw")
+
+    def part(self, step: Step) -> Rectangle | None:
+        """The part of the picture that the step can change: what its light reaches; None where that is nothing."""
+        if step not in self._parts:
+            scene, size = self._stage.scene, self._stage.size
+            whole: Rectangle = 0, 0, *size
+            self._parts[step] = (
+                whole if step.light is None else reached(scene.camera, size, scene.all_lights[step.light])
+            )
+        return self._parts[step]
+
     def draw(self, step: Step, target: Any, buffers: dict[str, Any]) -> None:
-        """Draw into the framebuffer `target`.
+        """Draw into the framebuffer `target`, as far as the step's light reaches.
 
         Args:
             buffers: the visibilities that the step reads, by term.
         """
         device = self._stage.device
+        part = self.part(step)
+        if part is None:
+            return
         program, vertices = self._program(step)
+        target.scissor = part
         target.use()
         if step.writes[0] in VISIBILITIES or self._separate:
             device.gl.enable_only(device.gl.NOTHING)
@@ -51,10 +73,12 @@ class ShadingPass:
         self._uniforms[step].write()
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
+        textures |= self._tables
         if self.own is not None and step.light is not None:
             textures |= self.own.textures(step.light)
         bind(program, textures)
         device.draw(vertices, 3)
+        target.scissor = None
 
     def _values(self, step: Step) -> dict[str, Any]:
         """What the step's shader is told; nothing of it changes from frame to frame."""
@@ -66,7 +90,9 @@ class ShadingPass:
         return values | {"viewer": viewer(scene.camera)}
 
     def _program(self, step: Step):
-        own = self.own.defines(step.light) if self.own is not None and step.light is not None else {}
+        own = dict(self._effect.defines(self._knobs))
+        if self.own is not None and step.light is not None:
+            own |= self.own.defines(step.light)
         reads = () if self._separate else step.reads
         key = (step.writes, reads, tuple(own.items()))
         if key not in self._programs:
