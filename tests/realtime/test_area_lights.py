@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
+from lightmeter.realtime.effects.many_sample_light.points import light_points
 from lightmeter.realtime.graph import Choice
 from lightmeter.scenes import shapes
-from lightmeter.scenes.model import Material, Shape
+from lightmeter.scenes.model import Material, Shape, Texture
 
 from .area_quadrature import of_polygon, reflected
 from .area_scenes import GLOW, RADIANCE, direct_of, lit_floor, turned
-from .small_scenes import camera, moved, renderer
+from .small_scenes import camera, image, moved, renderer
 
 DIFFUSE = Material("diffuse", (0.8, 0.6, 0.4), specular=0.0)
 ROUGH = Material("rough", (0.8, 0.6, 0.4), metallic=1.0, roughness=0.7)
@@ -23,11 +24,11 @@ SMALL = {
 }
 
 
-def quadrature(points, mesh, matrix, **given):
+def quadrature(points, mesh, matrix, order=2, **given):
     """What the light, as it is drawn, gives at points."""
     world = Shape("light", mesh, GLOW, matrix).world
     corners = world.positions[world.triangles].astype(np.float64)
-    parts = [of_polygon(triangle, 2) for triangle in corners]
+    parts = [of_polygon(triangle, order) for triangle in corners]
     places, areas = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     return reflected(points, places, areas, RADIANCE, **given)
 
@@ -79,3 +80,48 @@ def test_light_leaves_the_front_alone_unless_the_light_has_two_sides(device):
         _, front = direct_of(device, lit_floor(DIFFUSE, light, turned((0, 0, 0), (0, 1, 0))), effect, size=(12, 8))
         assert (dark == 0).all() and front.min() > 0
         np.testing.assert_allclose(lit, front, rtol=1e-5)
+
+
+def test_points_on_a_light_are_even_by_area_and_carry_its_power():
+    """Each set: one point to a stratum of the area; weights add up to L·A; the mean is the centroid.
+
+    The centroid of n points, one to each of n strata of a unit square halved along a diagonal, is off by less than a
+    stratum's width along one axis and, the other coordinate being a rank-1 sequence, by O(log n/n): 0.02 for 256.
+    """
+    matrix = turned((0, 0, 0), (0.3, 1.4, -0.5))
+    shape = Shape("light", shapes.rectangle(1, 1), GLOW, matrix)
+    for points in light_points(shape, 256, 4).reshape(4, 256, 3, 3):
+        position, normal, weight = (points[:, i] for i in range(3))
+        np.testing.assert_allclose(weight.sum(axis=0), RADIANCE, rtol=1e-6)
+        np.testing.assert_allclose(normal, np.broadcast_to(matrix[:3, 2], normal.shape), atol=1e-6)
+        local = (position - matrix[:3, 3]) @ matrix[:3, :3]
+        assert np.abs(local).max() <= 0.5 + 1e-6 and np.abs(local[:, 2]).max() < 1e-6
+        assert np.abs(local.mean(axis=0)).max() < 0.02
+        quarters = np.histogram2d(local[:, 0], local[:, 1], 2, [[-0.5, 0.5]] * 2)[0]
+        assert np.abs(quarters - 64).max() <= 8
+
+
+def test_points_shine_through_the_light_s_texture_and_not_in_its_holes():
+    """Two texels: the left one emits twice as much; then the right one is a hole."""
+    two = Texture(image(np.float32([[[1.0, 1, 1, 1], [0.5, 0.5, 0.5, 0.25]]]), np.float32), mag_filter="nearest")
+    textured = Material("textured", emissive=RADIANCE, emissive_texture=two)
+    points = light_points(Shape("light", shapes.rectangle(2, 1), textured), 64, 1).reshape(64, 3, 3)
+    left = points[:, 0, 0] < 0
+    each = 2 * np.array(RADIANCE) / 64
+    np.testing.assert_allclose(points[:, 2], np.where(left[:, None], each, each / 2), rtol=1e-6)
+    holed = Material("holed", emissive=RADIANCE, base_color_texture=two, alpha_mode="mask")
+    points = light_points(Shape("light", shapes.rectangle(2, 1), holed), 64, 1).reshape(64, 3, 3)
+    np.testing.assert_allclose(points[:, 2], np.where(left[:, None], each, 0), rtol=1e-6)
+
+
+@pytest.mark.parametrize("light", ["rectangle", "box"])
+def test_many_points_converge_to_the_light(device, light):
+    """The error falls at least as 1/√n, and is below a hundredth in the end."""
+    mesh = shapes.rectangle(1.0, 0.6) if light == "rectangle" else shapes.box(0.5, 0.4, 0.3)
+    scene = lit_floor(ROUGH, mesh, OVER)
+    errors = []
+    for samples in (4, 64, 1024):
+        points, got = direct_of(device, scene, "many_sample_light", size=(12, 8), samples=samples, tile=2)
+        exact = quadrature(points, mesh, OVER, order=16)
+        errors.append(np.sqrt(np.mean((got - exact) ** 2)) / exact.mean())
+    assert errors[1] < errors[0] / 4 and errors[2] < errors[1] / 4 and errors[2] < 0.01
