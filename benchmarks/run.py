@@ -16,6 +16,7 @@ from pathlib import Path
 
 import beside_vtk
 import flip_speed
+import light_count
 import passes
 import processes
 import truth_speed
@@ -28,6 +29,7 @@ from lightmeter.realtime.device import Device
 SECTIONS = {
     "processes": "whole processes",
     "passes": "frame time by pass, 512×512",
+    "lights": "frame time over the number of lights, 512×512",
     "vtk": "grid-sun beside VTK, 512×512",
     "flip": "FLIP beside flip-evaluator, 512×512",
     "truth": "the truth, 512×512",
@@ -52,6 +54,8 @@ def main() -> None:
         show("processes", processes.measure())
     if "passes" in options.only:
         show("passes", passes.measure(device))
+    if "lights" in options.only:
+        show("lights", light_count.measure(device))
     if {"vtk", "flip"} & options.only:  # FLIP is timed on the frame and the truth of this section
         beside = beside_vtk.measure(device, options.spp, options.picture)
         show("vtk", beside.figures)

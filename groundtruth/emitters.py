@@ -1,7 +1,8 @@
 """The scene's lights as Mitsuba emitters.
 
 Mitsuba's own `point`, `directional`, `constant` and `area` where they mean what the scene means; its spot does not
-(its falloff is linear in the angle), and its area light can neither emit from both sides nor sample a textured mesh.
+(its falloff is linear in the angle), its point light has no range, and its area light can neither emit from both sides
+nor sample a textured mesh.
 """
 
 import math
@@ -18,7 +19,7 @@ from lightmeter.scenes.optics import lights as optics
 def punctual(light: PunctualLight):
     """The Mitsuba emitter of a point, spot or directional light."""
     match light:
-        case PointLight():
+        case PointLight(range=None):
             return mi.load_dict(
                 {"type": "point", "position": list(light.position), "intensity": _rgb(light.intensity)}, optimize=False
             )
@@ -27,8 +28,8 @@ def punctual(light: PunctualLight):
                 {"type": "directional", "direction": list(light.direction), "irradiance": _rgb(light.irradiance)},
                 optimize=False,
             )
-        case SpotLight():
-            return SpotEmitter(light)
+        case PointLight() | SpotLight():
+            return PositionEmitter(light)
     raise TypeError(f"no such light: {type(light).__name__}")
 
 
@@ -62,17 +63,29 @@ def _opaque(kind, *values):
     return array
 
 
-class SpotEmitter(mi.Emitter):
-    """A spot light with the falloff of KHR_lights_punctual (`scenes/optics/lights.py`)."""
+class PositionEmitter(mi.Emitter):
+    """A point or spot light with the falloffs of KHR_lights_punctual (`scenes/optics/lights.py`)."""
 
-    def __init__(self, light: SpotLight):
+    def __init__(self, light: PointLight | SpotLight):
         super().__init__(mi.Properties())
         self.position = _opaque(mi.Point3f, *light.position)
-        self.direction = _opaque(mi.Vector3f, *(np.array(light.direction) / np.linalg.norm(light.direction)))
         self.intensity = _opaque(mi.Color3f, *light.intensity)
-        self.inner, self.outer = _opaque(mi.Float, light.inner), _opaque(mi.Float, light.outer)
+        self.range_square = None if light.range is None else _opaque(mi.Float, light.range**2)
+        self.is_spot = isinstance(light, SpotLight)
+        if isinstance(light, SpotLight):
+            self.direction = _opaque(mi.Vector3f, *(np.array(light.direction) / np.linalg.norm(light.direction)))
+            self.inner, self.outer = _opaque(mi.Float, light.inner), _opaque(mi.Float, light.outer)
         self.m_flags = +mi.EmitterFlags.DeltaPosition
         self.m_needs_sample_2 = self.m_needs_sample_3 = False
+
+    def _irradiance(self, towards, inverse_square):
+        """W/m² across the direction to the light, `towards`."""
+        strength = inverse_square
+        if self.range_square is not None:
+            strength *= optics.range_window(inverse_square, self.range_square)
+        if self.is_spot:
+            strength *= optics.spot_attenuation(-dr.dot(towards, self.direction), self.inner, self.outer)
+        return self.intensity * strength
 
     def sample_direction(self, it, sample, active=True):
         """The one direction to the light, and its irradiance across it."""
@@ -82,8 +95,7 @@ class SpotEmitter(mi.Emitter):
         ds.d, inverse_square = optics.from_position(self.position, it.p)
         ds.dist = dr.norm(self.position - it.p)
         ds.n = -ds.d
-        falloff = optics.spot_attenuation(-dr.dot(ds.d, self.direction), self.inner, self.outer)
-        return ds, dr.select(active, self.intensity * (falloff * inverse_square), 0)
+        return ds, dr.select(active, self._irradiance(ds.d, inverse_square), 0)
 
     def pdf_direction(self, it, ds, active=True):
         """0: no ray finds a point."""
@@ -91,8 +103,7 @@ class SpotEmitter(mi.Emitter):
 
     def eval_direction(self, it, ds, active=True):
         """Irradiance across `ds.d` for a direction made by `sample_direction`."""
-        falloff = optics.spot_attenuation(-dr.dot(ds.d, self.direction), self.inner, self.outer)
-        return dr.select(active, self.intensity * (falloff / dr.square(ds.dist)), 0)
+        return dr.select(active, self._irradiance(ds.d, 1 / dr.square(ds.dist)), 0)
 
     def eval(self, si, active=True):
         """0: it is not on a surface."""
@@ -107,7 +118,7 @@ class SpotEmitter(mi.Emitter):
 
     def to_string(self):
         """For messages."""
-        return "SpotEmitter[]"
+        return "PositionEmitter[]"
 
 
 class SurfaceEmitter(mi.Emitter):

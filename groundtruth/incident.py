@@ -24,6 +24,8 @@ def incident(light: PunctualLight, point):
     position = _opaque(mi.Vector3d, light.position)
     towards, inverse_square = optics.from_position(position, point)
     strength = inverse_square
+    if light.range is not None:
+        strength = strength * optics.range_window(inverse_square, _opaque(mi.Float64, [light.range**2]))
     if isinstance(light, SpotLight):
         axis = np.asarray(light.direction, np.float64)
         axis = _opaque(mi.Vector3d, axis / np.linalg.norm(axis))

@@ -26,7 +26,11 @@ def uniforms(_scene: Scene, _knobs: Knobs, light: Light | None) -> dict[str, Any
         return {"light_position": np.append(away, 0.0), "light_power": np.array(light.irradiance)}
     if isinstance(light, AreaLight) or light is None:
         raise TypeError("punctual.glsl takes punctual lights only")
-    values = {"light_position": np.append(light.position, 1.0), "light_power": np.array(light.intensity)}
+    values = {
+        "light_position": np.append(light.position, 1.0),
+        "light_power": np.array(light.intensity),
+        "inverse_range_square": 0.0 if light.range is None else 1 / light.range**2,
+    }
     if isinstance(light, SpotLight):
         values |= {
             "spot_direction": np.array(light.direction),

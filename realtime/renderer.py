@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from lightmeter.scenes.points import SurfacePoints
+from lightmeter.scenes.terms import TERMS
 
 from .averager import Averager
 from .device import Device
@@ -112,7 +113,9 @@ class Renderer:
         actions = []
         own = shading.own
         light = step.light
-        if own is not None and light is not None:
+        if light is not None and shading.part(step) is None:
+            return []
+        if shading.has_map and light is not None:
             actions.append((f"{name} · map", step.effect, lambda: own.draw(light)))
         term = step.writes[0]
         target = self._buffers.get(term, self._radiance_buffer)
@@ -218,7 +221,9 @@ class Renderer:
         """What a step writes, each term by itself; a visibility is 1 and a radiance 0 where nothing is drawn."""
         textures = [self.device.target(self.size) for _ in step.writes]
         target = self.device.framebuffer(textures)
-        if shading.own is not None and step.light is not None and self._held.get(step.effect) != step.light:
+        neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
+        target.clear(neutral, neutral, neutral)
+        if shading.has_map and step.light is not None and self._held.get(step.effect) != step.light:
             # A light's map does not depend on where in the pixel the scene is sampled.
             shading.own.draw(step.light)
             self._held[step.effect] = step.light

@@ -7,6 +7,7 @@ from lightmeter.scenes.terms import TERMS
 
 from .effect import Effect, Knobs
 from .graph import FACTORS, Step
+from .light_bounds import Rectangle, reached
 from .projection import viewer
 from .shaders import Source, source
 from .stage import Stage
@@ -27,20 +28,40 @@ class ShadingPass:
         self._stage, self._effect, self._knobs, self._separate = stage, effect, knobs, separate
         self._programs: dict[tuple, Any] = {}
         self._uniforms: dict[Step, Uniforms] = {}
+        self._parts: dict[Step, Rectangle | None] = {}
         self._tables = {name: stage.device.table(values) for name, values in effect.tables(knobs).items()}
         self.own: Any = None
         if (effect.folder / "passes.py").is_file():
             module = import_module(f"{__package__}.effects.{effect.name}.passes")
             self.own = module.Passes(stage, knobs, effect.folder)
 
+    @property
+    def has_map(self) -> bool:
+        """Whether the effect draws something beforehand for each light."""
+        return hasattr(self.own, "draw")
+
+    def part(self, step: Step) -> Rectangle | None:
+        """The part of the picture that the step can change: what its light reaches; None where that is nothing."""
+        if step not in self._parts:
+            scene, size = self._stage.scene, self._stage.size
+            whole: Rectangle = 0, 0, *size
+            self._parts[step] = (
+                whole if step.light is None else reached(scene.camera, size, scene.all_lights[step.light])
+            )
+        return self._parts[step]
+
     def draw(self, step: Step, target: Any, buffers: dict[str, Any]) -> None:
-        """Draw into the framebuffer `target`.
+        """Draw into the framebuffer `target`, as far as the step's light reaches.
 
         Args:
             buffers: the visibilities that the step reads, by term.
         """
         device = self._stage.device
+        part = self.part(step)
+        if part is None:
+            return
         program, vertices = self._program(step)
+        target.scissor = part
         target.use()
         if step.writes[0] in VISIBILITIES or self._separate:
             device.gl.enable_only(device.gl.NOTHING)
@@ -57,6 +78,7 @@ class ShadingPass:
             textures |= self.own.textures(step.light)
         bind(program, textures)
         device.draw(vertices, 3)
+        target.scissor = None
 
     def _values(self, step: Step) -> dict[str, Any]:
         """What the step's shader is told; nothing of it changes from frame to frame."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import environment, frames, lights, material, microfacet
+from lightmeter.scenes.optics import arrays, environment, frames, lights, material, microfacet
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -95,6 +95,26 @@ def above(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray
     return [*others, n, *turned]
 
 
+def specular_lobe(base_color, metallic, roughness, specular, n, v, l):  # noqa: E741
+    """F·D·V·(n·l): the whole material less its base, f(base) = (1 − F_d)·c_diff/π·(n·l)."""
+    material_point = point(base_color, metallic, roughness, specular)
+    n_dot_v, n_dot_l = np.sum(n * v, axis=0), np.sum(n * l, axis=0)
+    n_dot_h, sin2_h, v_dot_h = microfacet.half_cosines(n, v, l)
+    d = microfacet.d_ggx(n_dot_h, sin2_h, material_point.alpha)
+    visible = microfacet.v_smith_ggx_correlated(
+        np.maximum(n_dot_v, 1e-7), np.maximum(n_dot_l, 1e-7), material_point.alpha
+    )
+    fresnel = microfacet.f_schlick(v_dot_h, material_point.f0, material_point.f90)
+    return np.where((n_dot_v > 0) & (n_dot_l > 0), fresnel * d * visible * n_dot_l, 0)
+
+
+def diffuse_lobe(base_color, metallic, specular, v, l):  # noqa: E741
+    """(1 − F_d)·c_diff/π, F_d the dielectric's."""
+    v_dot_h = np.sum(v * arrays.normalize(v + l), axis=0)
+    above = microfacet.f_schlick(v_dot_h, material.DIELECTRIC_F0 * specular, specular)
+    return (1 - above) * point(base_color, metallic, 1.0, specular).diffuse / np.pi
+
+
 def near_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
     """Half of the lanes get a half vector within the lobe, at angles from 1e-5 to 1; a third looks along the surface.
 
@@ -130,6 +150,11 @@ def light_towards(light_position, at):
 def spot(cos_angle, cos_inner, cos_outer):
     """The falloff from cosines; cos(arccos x) is x to 1e-16."""
     return lights.spot_attenuation(cos_angle, np.arccos(cos_inner), np.arccos(cos_outer))
+
+
+def window(inverse_square, inverse_range_square):
+    """The window from the range's inverse square; 0 is no range."""
+    return np.maximum(1 - (inverse_range_square / np.maximum(inverse_square, 1e-18)) ** 2, 0)
 
 
 def transformed(uv, row_u, row_v):
@@ -282,6 +307,36 @@ TWINS = (
         signs=brdf_signs,
     ),
     Twin(
+        "lobes.glsl",
+        "specular_lobe",
+        "vec3",
+        (
+            color("base_color"),
+            unit("metallic"),
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            unit("specular"),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        specular_lobe,
+        roundings=1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 7 + 5 + 3,
+        why="as gltf_brdf: the half vector (12), D (16), V (12.5), F (7) with F0 (5), and three products",
+        arrange=near_the_mirror,
+        signs=brdf_signs,
+    ),
+    Twin(
+        "lobes.glsl",
+        "diffuse_lobe",
+        "vec3",
+        (color("base_color"), unit("metallic"), unit("specular"), towards("v"), towards("l")),
+        diffuse_lobe,
+        roundings=1 + 3 + 3 + 2 + 1 + 7 + 5 + 1 + 2 + 3,
+        why="v + l, a square (3), a scalar product (3), inversesqrt (2) and the product; F (7) with F0 (5); 1 − F, "
+        "c_diff (2), 1/π and two products",
+        cancels=1.0,
+    ),
+    Twin(
         "lights.glsl",
         "from_position",
         "float",
@@ -293,6 +348,19 @@ TWINS = (
         light_towards,
         roundings=1 + 3 + 2.5 + 1,
         why="the difference, a product and two sums, the division (2.5) or inversesqrt (2) and a product",
+    ),
+    Twin(
+        "lights.glsl",
+        "range_window",
+        "float",
+        (
+            Argument("inverse_square", "float", logarithmic(1e-4, 1e4), (0.0, 1.0)),
+            Argument("inverse_range_square", "float", logarithmic(1e-4, 1e4), (0.0, 1.0)),
+        ),
+        window,
+        roundings=2.5 + 1 + 1,
+        why="the division (2.5), the square and the difference",
+        cancels=1.0,
     ),
     Twin(
         "lights.glsl",

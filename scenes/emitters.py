@@ -15,6 +15,7 @@ class Emitter:
 
     Attributes:
         power: (3,) float64, W.
+        radiance: (3,) float64, the mean over its surface, W/(sr·m²).
         area: m².
         centre: (3,) float64, the centroid by area, world space.
         normal: (3,) float64 unit mean direction of the fronts; zero where they cancel.
@@ -23,6 +24,7 @@ class Emitter:
     """
 
     power: np.ndarray
+    radiance: np.ndarray
     area: float
     centre: np.ndarray
     normal: np.ndarray
@@ -49,6 +51,7 @@ def emitter(scene: Scene, light: AreaLight) -> Emitter:
     return Emitter(
         # A Lambertian emitter of radiance L and area A sends π·A·L from each side.
         power=math.pi * area * radiance * sides,
+        radiance=radiance,
         area=area,
         centre=((a + b + c) / 3 * areas[:, None]).sum(axis=0) / max(area, 1e-300),
         normal=mean / length if length > 1e-9 * area else np.zeros(3),

@@ -216,11 +216,16 @@ def _normalized(vectors: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class PointLight:
-    """Radiates `intensity` (W/sr, RGB) in every direction from `position`."""
+    """Radiates `intensity` (W/sr, RGB) in every direction from `position`.
+
+    Attributes:
+        range: metres at which its light ends, by glTF's window; None: unlimited.
+    """
 
     name: str
     position: Vector
     intensity: Vector
+    range: float | None = None
 
 
 @dataclass(frozen=True)
@@ -230,6 +235,7 @@ class SpotLight:
     Attributes:
         direction: where it points, a unit vector.
         inner, outer: half angles in radians, 0 ≤ inner < outer ≤ π/2.
+        range: metres at which its light ends, by glTF's window; None: unlimited.
     """
 
     name: str
@@ -238,6 +244,7 @@ class SpotLight:
     intensity: Vector
     inner: float
     outer: float
+    range: float | None = None
 
 
 @dataclass(frozen=True)

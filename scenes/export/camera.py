@@ -31,8 +31,9 @@ CONVENTIONS = {
     "lights": (
         "glTF's intensity times colour is meant in W/sr (point, spot) and W/m^2 (directional), RGB, not in candela "
         "or lux. Radiance reflected by a white diffuse surface is irradiance / pi. Light falls off with the squared "
-        "distance without end; a spot's cone as in KHR_lights_punctual. A directional light's direction is the way "
-        "the light travels. Every light casts shadows. Area lights are the emissive surfaces"
+        "distance d, times 1 - (d/range)^4 up to the range and nothing beyond, where it has one; a spot's cone as in "
+        "KHR_lights_punctual. A directional light's direction is the way the light travels. Every light casts shadows. "
+        "Area lights are the emissive surfaces"
     ),
     "materials": (
         "glTF 2.0 metallic-roughness (Appendix B) with alpha = max(roughness^2, 0.001), single scattering, index of "
@@ -115,6 +116,7 @@ def _light(scene: Scene, light: Light, index: int) -> dict[str, Any]:
         "name": light.name,
         "position_m": list(light.position),
         "intensity_w_per_sr": list(light.intensity),
+        "range_m": light.range,
     }
     if isinstance(light, SpotLight):
         placed |= {

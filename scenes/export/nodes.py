@@ -31,6 +31,7 @@ def light(given: PunctualLight) -> tuple[dict[str, Any], np.ndarray]:
         content |= {"type": "spot", "spot": {"innerConeAngle": given.inner, "outerConeAngle": given.outer}}
     if not isinstance(given, DirectionalLight):
         matrix[:3, 3] = given.position
+        content |= {} if given.range is None else {"range": given.range}
     return content, matrix
 
 

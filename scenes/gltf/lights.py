@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from lightmeter.scenes.checks import FARTHEST
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.gltf.document import Light, LightReference, Lights, Node
 from lightmeter.scenes.gltf.source import Source
@@ -35,16 +36,16 @@ class Punctuals:
             "light intensities are read as W/sr and W/m², where glTF says candela and lux (683 times as many "
             "at 555 nm); change the camera's exposure if the picture is too bright"
         )
-        if light.range is not None:
-            source.note("the range of lights is left out: they fall off with the squared distance without end")
         return _placed(light, name, world, source.at(place))
 
 
 def _placed(light: Light, name: str, world: np.ndarray, where: str) -> PunctualLight:
     red, green, blue = (channel * light.intensity for channel in light.color)
     x, y, z = (float(value) for value in world[:3, 3])
+    # What no scene reaches is no limit; and a range's square must not vanish.
+    limit = None if light.range is None or light.range > FARTHEST else max(light.range, 1 / FARTHEST)
     if light.type == "point":
-        return PointLight(name, (x, y, z), (red, green, blue))
+        return PointLight(name, (x, y, z), (red, green, blue), limit)
     forward = -world[:3, 2]
     length = np.linalg.norm(forward)
     if not 1e-12 < length < 1e12:
@@ -54,4 +55,4 @@ def _placed(light: Light, name: str, world: np.ndarray, where: str) -> PunctualL
         return DirectionalLight(name, (u, v, w), (red, green, blue))
     assert light.spot is not None
     inner, outer = light.spot.inner, min(light.spot.outer, np.pi / 2)
-    return SpotLight(name, (x, y, z), (u, v, w), (red, green, blue), inner, outer)
+    return SpotLight(name, (x, y, z), (u, v, w), (red, green, blue), inner, outer, limit)

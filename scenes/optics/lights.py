@@ -16,6 +16,17 @@ def spot_attenuation(cos_angle: Array, inner: Array, outer: Array) -> Array:
     return ramp * ramp
 
 
+def range_window(inverse_square: Array, range_square: Array) -> Array:
+    """How a light with a range ends there, 0…1: 1 − (d/r)⁴, and 0 beyond (KHR_lights_punctual, recommended window).
+
+    Args:
+        inverse_square: 1/d², 1/m², as `from_position` gives it.
+        range_square: r², m².
+    """
+    ratio = 1 / xp.maximum(inverse_square * range_square, 1e-18)
+    return xp.maximum(1 - ratio * ratio, 0.0)
+
+
 def from_position(light_position: Array, point: Array) -> tuple[Array, Array]:
     """Direction from the points to the light (unit) and 1/distance², 1/m²; both 0 at the light itself."""
     offset = light_position - point

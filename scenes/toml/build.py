@@ -142,12 +142,12 @@ class Builder:
             return DirectionalLight(name, unit(entry.direction), _times(entry.irradiance, entry.color))
         intensity = _times(entry.intensity, entry.color)
         if isinstance(entry, entries.PointEntry):
-            return PointLight(name, entry.position, intensity)
+            return PointLight(name, entry.position, intensity, entry.range)
         direction = entry.direction
         if direction is None:
             direction = np.subtract(entry.target or (), entry.position)
         inner, outer = np.radians((entry.inner, entry.outer))
-        return SpotLight(name, entry.position, unit(direction), intensity, float(inner), float(outer))
+        return SpotLight(name, entry.position, unit(direction), intensity, float(inner), float(outer), entry.range)
 
     def shapes(self, entry: entries.ShapeEntry, index: int, materials: dict[str, Material]) -> list[Shape]:
         place = f"shapes[{index}]"

@@ -139,6 +139,12 @@ class CameraEntry(Strict):
         return self
 
 
+Range = Annotated[
+    Length | None,
+    Field(description="Metres at which the light ends, by glTF's window 1 − (d/range)⁴; unlimited unless given."),
+]
+
+
 class EnvironmentEntry(Strict):
     """What surrounds the scene."""
 
@@ -171,6 +177,7 @@ class PointEntry(Strict):
     position: Point
     intensity: Radiant = Field(description="W/sr; multiplied with `color`.")
     color: Radiant = (1.0, 1.0, 1.0)
+    range: Range = None
 
 
 class SpotEntry(Strict):
@@ -189,6 +196,7 @@ class SpotEntry(Strict):
     outer: Annotated[float, Field(strict=True, gt=0, le=90)] = Field(
         45.0, description="Half angle of the cone beyond which there is none, degrees."
     )
+    range: Range = None
 
     @model_validator(mode="after")
     def _complete(self) -> "SpotEntry":

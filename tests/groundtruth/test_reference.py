@@ -11,7 +11,7 @@ from lightmeter.groundtruth.reference import render_batch
 from lightmeter.groundtruth.variant import mi
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.load import load
-from lightmeter.scenes.model import Environment, Material, Scene, Shape, SpotLight
+from lightmeter.scenes.model import Environment, Material, PointLight, Scene, Shape, SpotLight
 
 from .noise import assert_mean, assert_same_mean, blocks
 from .small_scenes import floor, looking, points_at, rectangle
@@ -151,6 +151,25 @@ def test_the_spot_falls_off_as_gltf_says():
     np.testing.assert_allclose(image.mean(axis=(0, 1)), expected, rtol=2e-4)
     oracle = direct.evaluate(world, points_at([(x, 0, 0)], (0, 1, 0), (0, 1, 0)), 0)
     np.testing.assert_allclose(oracle[0, 0], expected, rtol=1e-5)
+
+
+@pytest.mark.parametrize("cone", [None, (1.2, 1.5)], ids=["point", "spot"])
+def test_a_range_ends_the_light_in_reference_and_oracle_alike(cone):
+    """Half of the way: 15/16 of what falls off with the squared distance; beyond the range nothing."""
+    given = ("light", (0, 2, 0)), ((4.0, 2.0, 1.0),)
+    white = Material(base_color=(1, 1, 1), specular=0)
+    camera = looking((0, 4, 0), (0, 0, 0), ymag=0.002, up=(0, 0, -1))
+    for reach, share in ((4.0, 15 / 16), (1.9, 0.0), (None, 1.0)):
+        if cone:
+            light = SpotLight(*given[0], (0, -1, 0), *given[1], *cone, range=reach)
+        else:
+            light = PointLight(*given[0], *given[1], range=reach)
+        world = World.of(Scene("range", (Shape("floor", floor(4), white),), camera, lights=(light,), max_depth=2))
+        expected = share * np.array((4.0, 2.0, 1.0)) / 4 / math.pi
+        image = render_batch(world, (4, 4), 16, 0)
+        np.testing.assert_allclose(image.mean(axis=(0, 1)), expected, rtol=2e-4)
+        oracle = direct.evaluate(world, points_at([(0, 0, 0)], (0, 1, 0), (0, 1, 0)), 0)
+        np.testing.assert_allclose(oracle[0, 0], expected, rtol=1e-5)
 
 
 def test_nothing_to_see_and_nothing_that_shines():

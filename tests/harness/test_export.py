@@ -93,7 +93,7 @@ def everything() -> Scene:
     )
     lights = (
         PointLight(ODD, (1 / 3, 2, 3), (1000 / 3, 0.1, 0.0)),
-        SpotLight("spot", (0, 5, 0), (0.6, -0.8, 0.0), (4.0, 5.0, 6.0), 0.0, np.pi / 2),
+        SpotLight("spot", (0, 5, 0), (0.6, -0.8, 0.0), (4.0, 5.0, 6.0), 0.0, np.pi / 2, 7.5),
         DirectionalLight("sun", (0, -1, 0), (0.3, 0.2, 0.1)),
         PointLight("dark", (0, 0, 0), (0.0, 0.0, 0.0)),
     )

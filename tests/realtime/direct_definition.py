@@ -3,10 +3,10 @@
 The bound on `direct`. The inputs are the G-buffer's own float32 numbers, so that only the shader's arithmetic counts.
 With k roundings of at most ε = 2⁻²³ on the longest path, the result is exact for inputs moved by k·ε:
 |Δ| ≤ k·ε·(|f| + Σ |xᵢ|·|∂f/∂xᵢ|), over position, light, normal, view and the material's numbers; a vector counts with
-its norm. k: the offset (1), its square (3), inversesqrt (2), the product (1), the falloff (10), the light's power (2),
-and the material's own 58.5 (`shared_twins.py`): 78. The view direction is normalised on the device (7 roundings) and
-recomputed here: it stands among the moved inputs. Derivatives are finite differences. Where float32 cannot tell the
-sign of n·l or n·v, either branch is right, and those pixels' radiance is below k·ε times the light's.
+its norm. k: the offset (1), its square (3), inversesqrt (2), the product (1), the falloffs (10 and 6.5), the light's
+power (2), and the material's own 58.5 (`shared_twins.py`): 85. The view direction is normalised on the device (7
+roundings) and recomputed here: it stands among the moved inputs. Derivatives are finite differences. Where float32
+cannot tell the sign of n·l or n·v, either branch is right, and those pixels' radiance is below k·ε times the light's.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from lightmeter.scenes.model import DirectionalLight, SpotLight
 from lightmeter.scenes.optics import lights, material
 
 EPS = float(np.finfo(np.float32).eps)
-ROUNDINGS = 78
+ROUNDINGS = 85
 STEP = 1e-6
 
 
@@ -36,7 +36,10 @@ def exact_direct(light, source, position, normal, view, *parameters, model=gltf)
         power, received, to_light = light.irradiance, 1.0, source / np.linalg.norm(source, axis=0)
     else:
         power = light.intensity
-        to_light, received = lights.from_position(source, position)
+        to_light, inverse_square = lights.from_position(source, position)
+        received = inverse_square
+        if light.range is not None:
+            received = received * lights.range_window(inverse_square, light.range**2)
         if isinstance(light, SpotLight):
             cosine = -np.sum(to_light * np.array(light.direction)[:, None], axis=0)
             received = received * lights.spot_attenuation(cosine, light.inner, light.outer)

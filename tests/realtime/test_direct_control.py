@@ -27,6 +27,34 @@ def grid(device):
     return plan.scene, maker, maker.capture((0.17, -0.31))
 
 
+@pytest.fixture(scope="module")
+def ranged(device):
+    """The same grid under lights whose ranges end among the spheres."""
+    scene = load("metal-rough-grid")
+    point, spot, _ = scene.lights
+    scene = replace(scene, lights=(replace(point, range=7.5), replace(spot, range=6.4)))
+    maker = Renderer(device, compile_plan(scene, effects(), Choice(without=("shadow_map",))), (96, 96))
+    return scene, maker.capture()
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_a_range_is_the_definition_to_rounding(ranged, index):
+    """Within the range and beyond it; the grid is cut in two."""
+    scene, seen = ranged
+    light = scene.lights[index]
+    inputs = inputs_of(seen.points, light)
+    value = exact_direct(light, *inputs)
+    got = seen.direct[index][seen.points.hit].T.astype(np.float64)
+    facing = exact_direct(replace(light, range=None), *inputs) > 0
+    assert 0.1 < (value[facing] > 0).mean() < 0.9
+    _, normal, view = inputs[1:4]
+    to_light = inputs[0] - inputs[1]
+    to_light = to_light / np.linalg.norm(to_light, axis=0)
+    unclear = np.any([np.abs(np.sum(normal * d, axis=0)) < 16 * EPS for d in (view, to_light)], axis=0)
+    assert (np.abs(got - value) <= bound(light, inputs, value))[:, ~unclear].all()
+    assert (got[(value == 0) & ~unclear] == 0).all()
+
+
 @pytest.mark.parametrize("index", [0, 1, 2])
 def test_direct_is_the_definition_to_rounding(grid, index, record_property):
     scene, _, seen = grid

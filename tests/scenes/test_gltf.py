@@ -189,12 +189,21 @@ def test_lights(tmp_path):
         writer.node(translation=[index, 2, 0], rotation=[-half, 0, 0, half], scale=[3] * 3, extensions=extensions)
     scene = one(writer, tmp_path)
     point, spot, sun = scene.lights
-    assert point == PointLight("light 0", (0, 2, 0), (8, 4, 0))
+    assert point == PointLight("light 0", (0, 2, 0), (8, 4, 0), 3)  # the node's scale does not touch the range
     assert isinstance(spot, SpotLight) and (spot.inner, spot.outer, spot.intensity) == (0.1, 0.3, (1, 1, 1))
+    assert spot.range is None
     np.testing.assert_allclose(spot.direction, (0, -1, 0), atol=1e-12)
     assert isinstance(sun, DirectionalLight) and sun.irradiance == (2, 2, 2)
     assert LIGHTS_NOTE not in scene.notes and scene.environment is None
-    assert any("range" in note for note in scene.notes) and any("W/sr" in note for note in scene.notes)
+    assert any("W/sr" in note for note in scene.notes)
+
+
+@pytest.mark.parametrize(("given", "read"), [(1e30, None), (1e-30, 1e-9), (2.5, 2.5)])
+def test_a_range_that_float32_cannot_square_is_held_within(tmp_path, given, read):
+    writer = quad()
+    writer.content["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "range": given}]}}
+    writer.node(extensions={"KHR_lights_punctual": {"light": 0}})
+    assert one(writer, tmp_path).lights[0].range == read
 
 
 def test_materials_with_every_texture(tmp_path):

@@ -14,6 +14,7 @@ from lightmeter.scenes.load import load
 from lightmeter.scenes.toml import schema
 
 NAMES = (
+    "area-lights",
     "avenue",
     "control",
     "cornell-box",

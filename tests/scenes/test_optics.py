@@ -202,6 +202,14 @@ def test_light_from_a_position():
     assert np.allclose(inverse_square, [1 / 25, 0])
 
 
+def test_a_range_ends_the_light():
+    """KHR_lights_punctual: 1 − (d/r)⁴ up to the range, 0 beyond; without end for a range that nothing reaches."""
+    distance = np.array([1e-6, 1.0, 1.5, 2.0, 3.0, 1e6])
+    window = lights.range_window(1 / distance**2, np.float64(4.0))
+    np.testing.assert_allclose(window, [1, 1 - 1 / 16, 1 - 81 / 256, 0, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(lights.range_window(1 / distance[:5] ** 2, np.float64(1e18)), 1)
+
+
 def test_irradiance_of_a_point_light_on_a_plane():
     """I·h/(h² + r²)^(3/2), Lambert's cosine law."""
     height, radius = 2.0, np.linspace(0, 5, 7)

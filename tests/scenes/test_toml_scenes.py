@@ -54,6 +54,7 @@ def test_every_kind_of_light(tmp_path):
         position = [1, 2, 3]
         intensity = 4
         color = [1, 0.5, 0]
+        range = 2.5
         [[lights]]
         type = "spot"
         name = "s"
@@ -70,9 +71,9 @@ def test_every_kind_of_light(tmp_path):
         + BALL,
     )
     point, spot, sun = scene.lights
-    assert point == PointLight("point 0", (1, 2, 3), (4, 2, 0))
+    assert point == PointLight("point 0", (1, 2, 3), (4, 2, 0), 2.5)
     assert isinstance(spot, SpotLight) and spot.direction == (0, -1, 0) and spot.intensity == (1, 2, 3)
-    assert (spot.inner, spot.outer) == pytest.approx(np.radians((10, 30)))
+    assert (spot.inner, spot.outer) == pytest.approx(np.radians((10, 30))) and spot.range is None
     assert sun == DirectionalLight("directional 2", (0, 0, -1), (3, 3, 3))
 
 
