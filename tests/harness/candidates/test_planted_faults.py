@@ -62,7 +62,7 @@ def test_right_frames_raise_none(name):
 @pytest.mark.parametrize("name", ["cornell-box", "grid-sun", "posts", "torus"])
 @pytest.mark.parametrize("without", ["shadow_map", "constant_ambient"])
 def test_a_frame_that_lacks_a_term_is_no_frame_of_another_exposure(name, without):
-    """Of scenes where what lacks lacks in places. Where it lacks everywhere alike it is a factor, and named (see docs)."""
+    """Of scenes where what lacks lacks in places. Where it lacks everywhere alike it is a factor, and is named."""
     assert found(name, renderer(load(name), Choice(without=(without,))).render().radiance) == {}
 
 
