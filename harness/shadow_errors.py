@@ -5,9 +5,7 @@ import numpy as np
 from lightmeter.metrics.shadow_error import shadow_error
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.reports.results import LightShadow
-from lightmeter.scenes.points import SurfacePoints
-from lightmeter.scenes.terms import TERMS
-from lightmeter.sides import FramePoints
+from lightmeter.sides import FramePoints, some_offsets
 from lightmeter.stacking import mean_samples
 from lightmeter.truth import Truth
 
@@ -19,30 +17,22 @@ def shadow_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[Li
         at: the frame's points, at which the oracles are known.
     """
     plan = renderer.plan
-    centres = _nearest_to_the_centre(at, renderer.offsets)
-    terms = tuple(TERMS) if plan.effect_of("coverage") or plan.effect_of("material") else ("visibility",)
+    # The sample nearest to the pixel's centre stands for the pixel.
+    centres = at.captures[int(np.argmin(np.linalg.norm(some_offsets(renderer.offsets), axis=1)))].points
     found = []
     for step in plan.steps:
         light = step.light
         if "visibility" not in step.writes or light is None:
             continue
         seen = np.stack([capture.visibility[light] for capture in at.captures])
-        batches = (truth.batch(at.points, n, "frame", at.spp, terms=terms) for n in range(truth.batches))
+        batches = (truth.batch(at.points, n, "frame", at.spp, terms=("visibility",)) for n in range(truth.batches))
         exact = [(batch.direct[light], batch.shadowed[light]) for batch in batches]
-        unshadowed = [mean_samples(b) for b, _ in exact]
         error = shadow_error(
             [mean_samples(b * seen) for b, _ in exact],
             [mean_samples(a) for _, a in exact],
-            unshadowed,
+            [mean_samples(b) for b, _ in exact],
             centres.shape,
             centres.position,
         )
         found.append(LightShadow(step.effect, plan.scene.all_lights[light].name, error.rmse, error.parts))
     return tuple(found)
-
-
-def _nearest_to_the_centre(at: FramePoints, offsets: np.ndarray) -> SurfacePoints:
-    """Those of the frame's samples that stand for their pixels."""
-    if len(at.captures) == len(offsets):
-        return at.captures[int(np.argmin(np.linalg.norm(offsets, axis=1)))].points
-    return at.captures[len(at.captures) // 2].points

@@ -175,13 +175,14 @@ class Truth:
             spp: samples per point.
             keep: whether the store keeps the oracles one by one.
             remember: whether the memory keeps what the store keeps, for those who ask again.
-            terms: those that are wanted; the others cost nothing and are missing from the batch.
+            terms: those that are wanted; others cost nothing, and are in the batch only if they are remembered.
         """
         there = frozenset(terms) - set(self.missing)
         known = self._batches.setdefault(points, {})
         name = family, batch, spp, there
-        if name in known:
-            return known[name]
+        for (*same, terms_of), remembered in known.items():
+            if same == [family, batch, spp] and there <= terms_of:
+                return remembered
         found = self._make_batch(points, batch, family, spp, keep, there)
         if keep and remember and self._room >= found.bytes:
             self._room -= found.bytes

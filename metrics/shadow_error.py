@@ -172,8 +172,8 @@ class _Ruler:
         if not pixels.any():
             return np.full(pixels.shape, np.inf)
         if self._positions is None:
-            return distance_transform_edt(~pixels)
-        rows, columns = distance_transform_edt(~pixels, return_distances=False, return_indices=True)
+            return np.asarray(distance_transform_edt(~pixels))
+        rows, columns = np.asarray(distance_transform_edt(~pixels, return_distances=False, return_indices=True))
         return np.linalg.norm(self._positions.astype(np.float64) - self._positions[rows, columns], axis=-1)
 
 

@@ -98,7 +98,7 @@ def _correlations(one: np.ndarray, other: np.ndarray, far: tuple[int, int]) -> n
     rows, columns = 2 * far[0] + 1, 2 * far[1] + 1
     if not power > 0:
         return np.zeros((rows, columns))
-    size = tuple(next_fast_len(side + reach) for side, reach in zip(one.shape[1:], far, strict=True))
-    product = (rfft2(one, size) * np.conj(rfft2(other, size))).sum(axis=0)
-    shifted = np.roll(irfft2(product, size), far, axis=(0, 1))[:rows, :columns]
+    size = [next_fast_len(side + reach) for side, reach in zip(one.shape[1:], far, strict=True)]
+    product = (np.asarray(rfft2(one, size)) * np.conj(rfft2(other, size))).sum(axis=0)
+    shifted = np.roll(np.asarray(irfft2(product, size)), far, axis=(0, 1))[:rows, :columns]
     return np.arctanh(np.clip(shifted / power, -_ALIKE, _ALIKE))

@@ -123,5 +123,5 @@ def _filled(image: np.ndarray, fine: np.ndarray) -> np.ndarray:
         return image
     if not fine.any():
         return np.zeros(image.shape)
-    rows, columns = distance_transform_edt(~fine, return_distances=False, return_indices=True)
+    rows, columns = np.asarray(distance_transform_edt(~fine, return_distances=False, return_indices=True))
     return image[rows, columns]

@@ -80,7 +80,9 @@ def _parallel(scene: Scene, direction: np.ndarray, used: int, border: int) -> Sh
     corners = corners_of(scene) @ view[:3, :3].T
     low, high = corners.min(axis=0), corners.max(axis=0)
     matrix, texel = parallel_view(view, low, high, used, border)
-    return ShadowViews(matrix[None], np.append(-direction, 0.0), np.array([texel]), (-high[2], -low[2]))
+    # Rounding must stay small beside the range, in a scene that is flat to the light as well.
+    depth = max(high[2] - low[2], 0.01 * float((high - low).max()))
+    return ShadowViews(matrix[None], np.append(-direction, 0.0), np.array([texel]), (-high[2], -high[2] + depth))
 
 
 def light_axes(direction: np.ndarray) -> np.ndarray:

@@ -7,10 +7,10 @@ from scipy.optimize import linprog
 from lightmeter.realtime.effects.moment_shadow_map.twin import least_before
 from lightmeter.realtime.graph import Choice
 from lightmeter.scenes import shapes
-from lightmeter.scenes.model import DirectionalLight, Shape, SpotLight
+from lightmeter.scenes.model import DirectionalLight, Material, Shape, SpotLight, Texture
 
-from .small_scenes import WHITE, camera, moved, renderer, scene_of
-from .test_shadow_maps import ABOVE, BOX, FLOOR, LIGHTS, SPHERE, blocked, towards
+from .small_scenes import WHITE, camera, image, moved, renderer, scene_of
+from .test_shadow_maps import ABOVE, BOX, FLOOR, LIGHTS, SPHERE, blocked, leaf, towards
 
 FILTERED = ("variance_shadow_map", "exponential_shadow_map", "moment_shadow_map")
 NOON = DirectionalLight("noon", (0.0, -1.0, 0.0), (1, 1, 1))
@@ -210,3 +210,29 @@ def test_the_bound_of_four_moments_is_the_sharpest(seed):
         ours = least_before(moments[:, None], np.array([z]))[0]
         assert least_by_programming(depths, weights, z) == pytest.approx(ours, abs=0.005)
         assert ours <= weights[depths < z].sum() + 1e-9
+
+
+@pytest.mark.parametrize("technique", FILTERED)
+@pytest.mark.parametrize("light", [NOON, LIGHTS["point"], LIGHTS["spot"]], ids=lambda light: light.name)
+def test_a_scene_without_depth_is_lit(device, technique, light):
+    """Two sheets in one plane: as the sun sees them at noon all depths are one."""
+    sheets = [Shape(f"sheet {x}", shapes.plane(2, 4), WHITE, moved(x, 0.7, 0.0)) for x in (-1.0, 1.0)]
+    scene = scene_of(*sheets, view=ABOVE, lights=(light,))
+    points, seen = visibility_of(device, technique, scene, resolution=RESOLUTION)
+    lit = points.hit
+    if isinstance(light, SpotLight):
+        direction, _ = towards(light, points.position.astype(np.float64))
+        lit &= -direction @ np.array(light.direction) > np.cos(light.outer)
+    assert lit.sum() > 500
+    assert seen[lit].min() > 0.97
+
+
+@pytest.mark.parametrize("technique", FILTERED)
+def test_holes_are_holes_in_maps_that_are_filtered(device, technique):
+    """A sheet half of which is cut out, at noon, well off the cut."""
+    texture = Texture(image([[[255, 255, 255, 255], [255, 255, 255, 0]]]), min_filter="nearest", mag_filter="nearest")
+    cut = Material("cut", base_color_texture=texture, alpha_mode="mask", double_sided=True)
+    scene = scene_of(FLOOR, leaf(cut), view=camera((0, 0.4, 0), (0, 0, 0), ymag=0.45, near=0.01), lights=(NOON,))
+    points, seen = visibility_of(device, technique, scene, resolution=RESOLUTION)
+    x = points.position[..., 0]
+    assert seen[x < -0.1].max() < 0.01 and seen[x > 0.1].min() > 0.99

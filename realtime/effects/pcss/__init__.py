@@ -43,7 +43,7 @@ EFFECT = Effect(
             "search",
             0.5,
             "Blockers are looked for over the width that the light has seen from them, were they this share of the way "
-            "from light to point: smaller is wider.",
+            "from light to point: smaller is wider. Of those between, all the way from there to the point.",
             low=0.01,
             high=1.0,
             sweep=(0.2, 0.4, 0.6, 0.8),

@@ -84,7 +84,13 @@ vec3 visibility(Surface surface) {
     float blockers = 0.0, sum = 0.0;
     for (int i = 0; i < SEARCH_SAMPLES; ++i) {
         vec2 part = 2.0 * spread(i, SEARCH_SAMPLES, shift) - 1.0;
-        vec3 ray = through(to_point, part.x * light.u + part.y * light.v, search);
+#ifdef BETWEEN
+        // Wherever on the way they may be: near the point only narrow rays find what lies between.
+        float at = mix(search, 1.0, fract(float(i) * 0.75487767));
+#else
+        float at = search;
+#endif
+        vec3 ray = through(to_point, part.x * light.u + part.y * light.v, at);
         float nearness = nearness_on(ray, light, to_point, surface.normal);
         blockers += nearness < 1.0 ? 1.0 : 0.0;
         sum += nearness < 1.0 ? nearness : 0.0;

@@ -50,7 +50,7 @@ def clamped_cosine(n: np.ndarray, offset: np.ndarray) -> np.ndarray:
 def mean_of_five(n, to_centre, u, v, disk) -> np.ndarray:
     """Over the centre, and the corners ±u ± v or the rim's ±u, ±v."""
     a, b = np.where(disk > 0, u, u + v), np.where(disk > 0, v, u - v)
-    return 0.2 * sum(clamped_cosine(n, to_centre + offset) for offset in (np.zeros_like(a), a, -a, b, -b))
+    return np.mean([clamped_cosine(n, to_centre + offset) for offset in (np.zeros_like(a), a, -a, b, -b)], axis=0)
 
 
 def offset(name: str) -> Argument:
