@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import irfft2, next_fast_len, rfft2
+from scipy.fft import next_fast_len
 
 from .edges import directions, gradients
 from .fault import Fault
@@ -99,6 +99,6 @@ def _correlations(one: np.ndarray, other: np.ndarray, far: tuple[int, int]) -> n
     if not power > 0:
         return np.zeros((rows, columns))
     size = [next_fast_len(side + reach) for side, reach in zip(one.shape[1:], far, strict=True)]
-    product = (np.asarray(rfft2(one, size)) * np.conj(rfft2(other, size))).sum(axis=0)
-    shifted = np.roll(np.asarray(irfft2(product, size)), far, axis=(0, 1))[:rows, :columns]
+    product = (np.fft.rfft2(one, size) * np.conj(np.fft.rfft2(other, size))).sum(axis=0)
+    shifted = np.roll(np.fft.irfft2(product, size), far, axis=(0, 1))[:rows, :columns]
     return np.arctanh(np.clip(shifted / power, -_ALIKE, _ALIKE))

@@ -69,7 +69,7 @@ def background_fault(sides: Sides, explained: bool = False, bent: bool = False) 
     seen = _background(sides) & _shines(sides)
     if explained and sides.alpha is not None:
         seen &= sides.alpha > CLEAR
-    inner = np.asarray(binary_erosion(seen, iterations=_CLEAR_OF_EDGES, border_value=1))
+    inner: np.ndarray = np.asarray(binary_erosion(seen, iterations=_CLEAR_OF_EDGES, border_value=1))
     if np.count_nonzero(inner) < _FEWEST:
         return None
     tested, truth = sides.tested[inner], sides.truth[inner]
