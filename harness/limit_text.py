@@ -8,7 +8,7 @@ from lightmeter.limits import FRAME, Limit
 from lightmeter.regions import EVERYWHERE, Region
 
 _FORM = re.compile(
-    r"\s*(?:(?P<of>[\w.-]+)\.)?(?P<metric>\w+)(?:\s+to\s+(?P<to>[\w-]+))?"
+    r"\s*(?:(?P<of>[\w-]+(?:\.\d+)?)\.)?(?P<metric>[A-Za-z]\w*)(?:\s+to\s+(?P<to>[\w-]+))?"
     r"\s*(?P<sign><=|>=)\s*(?P<number>[-+.\w]+)"
     r"(?:\s+(?:(?P<surfaces>without\s+background)|on\s+(?P<kind>object|material)\s+(?P<names>.+?)))?\s*"
 )
