@@ -19,6 +19,7 @@ import flip_speed
 import light_count
 import passes
 import processes
+import shadows
 import truth_speed
 from figures import Figure, table
 from rich.console import Console
@@ -33,6 +34,7 @@ SECTIONS = {
     "vtk": "grid-sun beside VTK, 512×512",
     "flip": "FLIP beside flip-evaluator, 512×512",
     "truth": "the truth, 512×512",
+    "shadows": "shadow techniques, 512×512",
 }
 PICTURE = Path("lightmeter-out/benchmark/vtk-lightmeter-truth.png")
 
@@ -64,6 +66,8 @@ def main() -> None:
             show("flip", flip_speed.measure(beside.frame, beside.truth, beside.display))
     if "truth" in options.only:
         show("truth", truth_speed.measure(device))
+    if "shadows" in options.only:
+        show("shadows", shadows.measure(device))
     machine = fingerprint(device.renderer, device.version)
     console.print(", ".join(f"{name} {value}" for name, value in machine.items() if value is not None), style="dim")
     if options.json:
