@@ -1,22 +1,26 @@
 """Area-light effects against the truth, and what they cost: the tables of docs/lights.md.
 
-    python benchmarks/area_lights.py [--only fit,angles,scenes] [--size 256] [--spp 512]
+    python benchmarks/area_lights.py [--only fit,angles,scenes] [--size 256] [--spp 512] [--picture FILE]
 
 `fit`: how far the table's cosines are from the lobes. `angles`: each effect against Monte Carlo over roughness × angle,
-on a white metal under a rectangle. `scenes`: each effect's error and milliseconds on two scenes of the library.
+on a white metal under a rectangle. `scenes`: each effect's error and milliseconds on two scenes of the library. The
+picture: light from the area lights of `area-lights`, unshadowed, by some effects and by the truth.
 """
 
 import argparse
 import math
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from lightmeter.device import fingerprint
 from lightmeter.groundtruth.oracles import direct
 from lightmeter.groundtruth.world import World
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.display import display_transform
 from lightmeter.realtime.effects.ltc_area_light import fit
 from lightmeter.realtime.effects.ltc_area_light.table import fitted
 from lightmeter.realtime.graph import Choice, compile_plan
@@ -44,7 +48,7 @@ VARIANTS = (
 )
 COMPARED = (VARIANTS[1], VARIANTS[2], VARIANTS[3], VARIANTS[4], VARIANTS[7])
 SCENES = ("area-lights", "cornell-box")
-FRAMES = 20
+FRAMES = 10
 
 
 def variation(roughness: float, degrees: float) -> float:
@@ -142,6 +146,21 @@ def fit_table() -> Iterator[str]:
         yield f"| {roughness:g} | " + " | ".join(f"{100 * variation(roughness, d):.2f}" for d in ANGLES) + " |"
 
 
+def draw(device: Device, spp: int, path: Path) -> None:
+    """Write two rows of pictures: as a point, representative point as published and for mirrors; LTC, points, truth."""
+    shown, size = [], (300, 200)
+    for effect, knobs in COMPARED:
+        renderer, seen = captured(device, load("area-lights"), size, effect, knobs)
+        shown.append(sum(seen.direct.values()) + seen.points.emission)
+    scene = renderer.plan.scene
+    shown.append(sum(halves(scene, seen, spp)) / 2 + seen.points.emission)
+    display = display_transform(compile_plan(scene, effects()))
+    pictures = [np.round(255 * display(image.astype(np.float64))).astype(np.uint8) for image in shown]
+    rows = [np.concatenate(pictures[i : i + 3], axis=1) for i in (0, 3)]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(np.concatenate(rows)).save(path)
+
+
 def title(effect: str, knobs: dict) -> str:
     """The effect with the knobs that are set."""
     return f"`{effect}`" + "".join(f", {name} {value}" for name, value in knobs.items())
@@ -153,14 +172,17 @@ def main() -> None:
     parser.add_argument("--only", default="fit,angles,scenes", help="tables, by comma")
     parser.add_argument("--size", type=int, default=256, help="side of the picture in pixels (%(default)s)")
     parser.add_argument("--spp", type=int, default=512, help="samples of the truth (%(default)s)")
+    parser.add_argument("--picture", type=Path, help="where to write the picture")
     options = parser.parse_args()
     device = Device()
+    if options.picture:
+        draw(device, options.spp, options.picture)
     tables = {
         "fit": fit_table,
         "angles": lambda: angles_table(device, options.spp),
         "scenes": lambda: scenes_table(device, options.size, options.spp),
     }
-    for name in options.only.split(","):
+    for name in filter(None, options.only.split(",")):
         print(f"\n{name}\n")
         for line in tables[name]():
             print(line, flush=True)

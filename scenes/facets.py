@@ -36,6 +36,14 @@ def facets(mesh: Mesh) -> tuple[np.ndarray, ...]:
     return tuple(polygons)
 
 
+def is_closed(mesh: Mesh) -> bool:
+    """Whether every edge is there both ways round: the mesh bounds a solid."""
+    corners = np.unique(mesh.positions[mesh.triangles.ravel()], axis=0, return_inverse=True)[1]
+    edges = corners.reshape(-1, 3)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    size = edges.max(initial=0) + 1
+    return bool(len(edges)) and np.array_equal(np.sort(edges @ (size, 1)), np.sort(edges @ (1, size)))
+
+
 def _pieces(edges: np.ndarray, normals: np.ndarray, tilts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The piece each triangle belongs to, and which edges (rows) have no neighbour in their own piece.
 

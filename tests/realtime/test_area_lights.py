@@ -85,6 +85,16 @@ def test_light_leaves_the_front_alone_unless_the_light_has_two_sides(device, eff
     np.testing.assert_allclose(lit, front, rtol=0.1 if effect == "many_sample_light" else 1e-5)
 
 
+@pytest.mark.parametrize("effect", ["ltc_area_light", "many_sample_light"])
+def test_a_solid_shines_with_its_outside_alone(device, effect):
+    """Exporters make most materials double-sided; a lamp's far side does not shine through its near one."""
+    both = Material("both", (0.0, 0.0, 0.0), specular=0.0, emissive=RADIANCE, double_sided=True)
+    box, place = shapes.box(0.5, 0.4, 0.3), moved(y=1)
+    _, once = direct_of(device, lit_floor(DIFFUSE, box, place), effect, size=(12, 8))
+    _, twice = direct_of(device, lit_floor(DIFFUSE, box, place, both), effect, size=(12, 8))
+    assert np.array_equal(once, twice) and once.max() > 0
+
+
 def test_points_on_a_light_are_even_by_area_and_carry_its_power():
     """Each set: one point to a stratum of the area; weights add up to L·A; the mean is the centroid.
 

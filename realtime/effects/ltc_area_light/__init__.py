@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.emitters import emitter
+from lightmeter.scenes.emitters import emitter, shines_back
 from lightmeter.scenes.model import AreaLight, Light, Scene
 
 from ...effect import Effect, Knob, Knobs
@@ -41,7 +41,7 @@ def uniforms(scene: Scene, knobs: Knobs, light: Light | None) -> dict[str, Any]:
         "light_corners": corners,
         "corner_count": len(shape.corners),
         "sphere_radius": shape.sphere_radius,
-        "two_sided": facts.double_sided,
+        "two_sided": shines_back(scene.shapes[light.shape]),
     }
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lightmeter.scenes.emitters import emitter
+from lightmeter.scenes.emitters import emitter, shines_back
 from lightmeter.scenes.facets import facets
 from lightmeter.scenes.luminaires import Disk, Sphere, recognise
 from lightmeter.scenes.model import AreaLight, Scene
@@ -41,7 +41,7 @@ def outline(scene: Scene, light: AreaLight, most: int, rim: int) -> Outline:
     if isinstance(known, Disk) and len(polygons[0]) > rim:
         return Outline(known.centre, _closed(known.radius * circle(rim) @ known.axes))
     if sum(map(len, polygons)) > most:
-        sides = 2 if facts.double_sided else 1
+        sides = 2 if shines_back(scene.shapes[light.shape]) else 1
         return _sphere(facts.centre, math.sqrt(sides * facts.area / (4 * math.pi)), rim)
     return Outline(facts.centre, np.concatenate([_closed(polygon - facts.centre) for polygon in polygons]))
 
