@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .facets import is_closed
 from .features import is_flat
-from .model import AreaLight, DirectionalLight, Light, Scene, SpotLight
+from .model import AreaLight, DirectionalLight, Light, Scene, Shape, SpotLight
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +59,11 @@ def emitter(scene: Scene, light: AreaLight) -> Emitter:
         flat=is_flat(shape),
         double_sided=shape.material.double_sided,
     )
+
+
+def shines_back(shape: Shape) -> bool:
+    """Whether light from the shape's back is seen outside: it is double-sided, and no solid that keeps it within."""
+    return shape.material.double_sided and not is_closed(shape.world)
 
 
 def flux(scene: Scene, light: Light) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The flat pieces of a mesh: neighbouring triangles in one plane, as the polygons that bound them."""
+"""The flat pieces of a mesh: neighbouring triangles in one plane, as the convex polygons that bound them."""
 
 from itertools import pairwise
 
@@ -13,7 +13,7 @@ ROUNDINGS = 4 * 2.0**-23
 def facets(mesh: Mesh) -> tuple[np.ndarray, ...]:
     """(n, 3) float64 corners of each flat piece, anticlockwise seen from its front; corners on straight edges go.
 
-    A piece with a hole, or one that touches itself, comes as its triangles. Triangles without area are left out.
+    A piece that is not convex, or has a hole, comes as its triangles. Triangles without area are left out.
     """
     positions, corners = np.unique(mesh.positions[mesh.triangles.ravel()], axis=0, return_inverse=True)
     positions, triangles = positions.astype(np.float64), corners.reshape(-1, 3)
@@ -31,9 +31,17 @@ def facets(mesh: Mesh) -> tuple[np.ndarray, ...]:
     polygons: list[np.ndarray] = []
     for number, (start, end) in enumerate(pairwise(starts)):
         loop = _loop(edges[outer[order[start:end]]])
-        loops = triangles[piece == number] if loop is None else [loop]
-        polygons += [_without_straight_corners(positions[loop], step) for loop in loops]
+        polygon = None if loop is None else _corners(positions[loop], normals[outer[order[start]] // 3], step)
+        polygons += [positions[corners] for corners in triangles[piece == number]] if polygon is None else [polygon]
     return tuple(polygons)
+
+
+def is_closed(mesh: Mesh) -> bool:
+    """Whether every edge is there both ways round: the mesh bounds a solid."""
+    corners = np.unique(mesh.positions[mesh.triangles.ravel()], axis=0, return_inverse=True)[1]
+    edges = corners.reshape(-1, 3)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    size = edges.max(initial=0) + 1
+    return bool(len(edges)) and np.array_equal(np.sort(edges @ (size, 1)), np.sort(edges @ (1, size)))
 
 
 def _pieces(edges: np.ndarray, normals: np.ndarray, tilts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -70,7 +78,9 @@ def _loop(border: np.ndarray) -> list[int] | None:
     return loop if len(loop) == len(after) and after.get(loop[-1]) == loop[0] else None
 
 
-def _without_straight_corners(corners: np.ndarray, step: float) -> np.ndarray:
-    before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
-    turn = np.linalg.norm(np.cross(before, after), axis=1)
-    return corners[turn > step * (np.linalg.norm(before, axis=1) + np.linalg.norm(after, axis=1))]
+def _corners(loop: np.ndarray, normal: np.ndarray, step: float) -> np.ndarray | None:
+    """A loop's corners without those on straight edges; None where one bends inwards."""
+    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
+    turn = np.cross(before, after) @ normal
+    straight = np.abs(turn) <= step * (np.linalg.norm(before, axis=1) + np.linalg.norm(after, axis=1))
+    return None if np.any((turn < 0) & ~straight) else loop[~straight]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .facets import ROUNDINGS, facets
+from .facets import ROUNDINGS, facets, is_closed
 from .model import Mesh
 
 ROUND = 1e-4
@@ -74,7 +74,7 @@ def recognise(mesh: Mesh) -> Luminaire | None:
         return None
     spread = np.linalg.svd(positions - positions.mean(axis=0, dtype=np.float64), compute_uv=False)
     if spread[-1] > ROUNDINGS * np.abs(positions).max() * len(positions) ** 0.5:
-        return _sphere(positions.astype(np.float64), corners.reshape(-1, 3))
+        return _sphere(positions.astype(np.float64), corners.reshape(-1, 3)) if is_closed(mesh) else None
     polygons = facets(mesh)
     return _rectangle(polygons[0]) or _disk(polygons[0]) if len(polygons) == 1 else None
 
@@ -111,7 +111,7 @@ def _sphere(positions: np.ndarray, triangles: np.ndarray) -> Sphere | None:
     centre = solution[0][:3]
     spokes = local - centre
     lengths = np.linalg.norm(spokes, axis=1)
-    if np.ptp(lengths) > ROUND * lengths.max() or not _is_closed(triangles):
+    if np.ptp(lengths) > ROUND * lengths.max():
         return None
     a, b, c = (spokes[triangles[:, i]] for i in range(3))
     faces = np.cross(b - a, c - a)
@@ -120,10 +120,3 @@ def _sphere(positions: np.ndarray, triangles: np.ndarray) -> Sphere | None:
         return None
     area = np.linalg.norm(faces, axis=1).sum() / 2
     return Sphere(middle + centre, float(np.sqrt(area / (4 * np.pi))))
-
-
-def _is_closed(triangles: np.ndarray) -> bool:
-    """Whether every edge is there both ways round."""
-    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    size = edges.max() + 1
-    return np.array_equal(np.sort(edges @ (size, 1)), np.sort(edges @ (1, size)))

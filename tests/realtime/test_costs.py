@@ -126,6 +126,25 @@ def test_textures_are_uploaded_once_and_only_those_that_are_read():
     assert none[1]["textures"] == 3
 
 
+def test_area_lights_cost_what_their_effect_reads_and_nothing_where_there_are_none():
+    """As a point: a program and a draw. With tables or points of its own: as many textures more, uploaded once."""
+    lamp = Shape("lamp", shapes.rectangle(0.3, 0.3), Material("glow", emissive=(3, 3, 3)), moved(z=1.5))
+    without = Choice(without=("shadow_map", "constant_ambient"))
+    one = counted(scene_of(facing(WHITE), lamp), without)
+    two = counted(scene_of(facing(WHITE), lamp, lamp), without)
+    for name, tables, for_each in (
+        ("representative_point", 0, 0),
+        ("ltc_area_light", 2, 0),
+        ("many_sample_light", 0, 1),
+    ):
+        choice = Choice(use=(name,), without=("shadow_map", "constant_ambient"))
+        for lamps, plain in ((1, one), (2, two)):
+            found = counted(scene_of(facing(WHITE), *[lamp] * lamps), choice)
+            assert found[1]["textures"] == plain[1]["textures"] + tables + lamps * for_each
+            assert (found[1]["shaders"], found[2]) == (plain[1]["shaders"], plain[2])
+        assert counted(load("plane"), choice)[1:] == counted(load("plane"), without)[1:]
+
+
 def test_supersampling_draws_the_scene_once_per_sample():
     one = counted(load("plane"))
     four = counted(load("plane"), Choice(settings={"supersampling": {"grid": 2}}))

@@ -78,9 +78,21 @@ def test_lights_go_to_the_effects_for_their_kind():
     assert isinstance(plan.scene.all_lights[3], AreaLight)
 
 
-def test_an_effect_without_lights_of_its_kind_says_so():
-    plan = plan_of(scene_of(BALL, lights=(SUN,)))
-    assert why(plan, "area_as_point") == "the scene has no light of the kinds it handles"
+AREA_EFFECTS = ("area_as_point", "representative_point", "ltc_area_light", "many_sample_light")
+
+
+@pytest.mark.parametrize("name", AREA_EFFECTS)
+def test_an_effect_without_lights_of_its_kind_says_so(name):
+    plan = plan_of(scene_of(BALL, lights=(SUN,)), Choice(use=(name,)))
+    assert why(plan, name) == "the scene has no light of the kinds it handles"
+
+
+@pytest.mark.parametrize("name", AREA_EFFECTS)
+def test_emissive_surfaces_go_to_the_effect_that_is_asked_for(name):
+    plan = plan_of(scene_of(BALL, LAMP, lights=(SUN,)), Choice(use=(name,)))
+    assert plan.lights_of(name) == (1,) and plan.lights_of("cook_torrance") == (0,)
+    for other in set(AREA_EFFECTS) - {name}:
+        assert why(plan, other) == f"{', '.join(sorted(('cook_torrance', name)))} gives direct already"
 
 
 def test_visibility_is_pruned_where_no_effect_gives_direct():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lightmeter.scenes import shapes
-from lightmeter.scenes.facets import facets
+from lightmeter.scenes.facets import facets, is_closed
 from lightmeter.scenes.luminaires import Disk, Rectangle, Sphere, recognise
 from lightmeter.scenes.model import Material, Mesh, Shape
 
@@ -42,7 +42,7 @@ def area_vector(polygon: np.ndarray) -> np.ndarray:
         (shapes.disk(0.4, 48), [48]),
         (shapes.box(1, 2, 0.5, 3), [4] * 6),
         (shapes.cone(0.5, 1, 16, 4), [3] * 16 + [16]),
-        (sheet((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)), [6]),
+        (sheet((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)), [3] * 4),
     ],
     ids=["rectangle", "fine plane", "disk", "box", "cone", "an L"],
 )
@@ -68,10 +68,19 @@ def test_a_piece_with_a_hole_comes_as_its_triangles_and_two_pieces_apart_are_two
     assert [len(polygon) for polygon in facets(apart)] == [4, 4]
 
 
+@pytest.mark.parametrize(
+    ("name", "closed"), [("box", True), ("sphere", True), ("torus", True), ("cone", True), ("disk", False)]
+)
+def test_solids_are_closed(name, closed):
+    mesh = placed(getattr(shapes, name)(), somewhere())
+    assert is_closed(mesh) == closed
+    assert not is_closed(Mesh(mesh.positions, mesh.triangles[1:]))
+
+
 def test_a_mesh_of_nothing_has_no_pieces_and_is_nothing():
     for triangles in (np.zeros((0, 3)), np.array([[0, 0, 1], [2, 2, 2]])):
         mesh = Mesh(np.eye(3), triangles)
-        assert facets(mesh) == () and recognise(mesh) is None
+        assert facets(mesh) == () and recognise(mesh) is None and not is_closed(Mesh(np.eye(3), np.zeros((0, 3))))
 
 
 @pytest.mark.parametrize("cells", [1, 7])

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.emitters import shines_back
 from lightmeter.scenes.model import Shape
 
 from ...effect import Knobs
@@ -25,7 +26,7 @@ class Passes:
 
     def uniforms(self, light: int) -> dict[str, Any]:
         """Whether the light has two sides."""
-        return {"two_sided": self._shape(light).material.double_sided}
+        return {"two_sided": shines_back(self._shape(light))}
 
     def textures(self, light: int) -> dict[str, Any]:
         """The light's points."""
