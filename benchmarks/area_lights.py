@@ -143,7 +143,7 @@ def fit_table() -> Iterator[str]:
     yield "| roughness | " + " | ".join(f"{d}°" for d in ANGLES) + " |"
     yield "| ---: |" + " ---: |" * len(ANGLES)
     for roughness in ROUGHNESSES:
-        yield f"| {roughness:g} | " + " | ".join(f"{100 * variation(roughness, d):.2f}" for d in ANGLES) + " |"
+        yield f"| {roughness:g} | " + " | ".join(f"{100 * variation(roughness, d):.1f}" for d in ANGLES) + " |"
 
 
 def draw(device: Device, spp: int, path: Path) -> None:

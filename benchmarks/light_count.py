@@ -14,7 +14,7 @@ from lightmeter.scenes.framing import look_at
 from lightmeter.scenes.model import Camera, Material, PointLight, Scene, Shape
 
 COUNTS = (1, 4, 16, 64, 256, 1024)
-MOST_UNLIMITED = 256
+MOST_UNLIMITED = 64
 SIZE = (512, 512)
 FRAMES = 10
 SIDE = 8.0

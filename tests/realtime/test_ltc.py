@@ -1,6 +1,7 @@
 """Linearly transformed cosines: the table against quadrature, the shader against Lambert's formula and the light."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -84,6 +85,18 @@ def test_the_fit_s_error_and_its_albedos_are_what_quadrature_finds(roughness, co
     assert np.sum(density * solid) == pytest.approx(1, abs=2e-3)
     exact = np.sum(np.abs(value / np.sum(value * solid) - density) * solid) / 2
     assert fit.variation(lobe, found, 48) == pytest.approx(exact, rel=0.05, abs=2e-4)
+
+
+def test_the_fit_s_error_is_what_the_docs_say():
+    """Per cent, to the last digit or a hundredth: there are fewer samples here."""
+    text = (Path(__file__).parents[2] / "docs" / "lights.md").read_text(encoding="utf-8").split("<!-- fit -->")[1]
+    head, _, *rows = ([cell.strip() for cell in line.strip("| ").split("|")] for line in text.strip().splitlines())
+    angles = [float(cell.rstrip("°")) for cell in head[1:]]
+    assert len(rows) == 6 and len(angles) == 5
+    for roughness, *cells in (map(float, row) for row in rows):
+        for angle, stated in zip(angles, cells, strict=True):
+            lobe, found, _ = lobe_and_fit(roughness, math.cos(math.radians(angle)), 64)
+            assert 100 * fit.variation(lobe, found, 64) == pytest.approx(stated, rel=0.01, abs=0.06)
 
 
 def test_white_rough_metal_has_its_albedo():
