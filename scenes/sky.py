@@ -121,7 +121,8 @@ def _disk(towards_sun: np.ndarray, height: int, points: int = 8) -> np.ndarray:
     u, v = (np.arange(2 * height) + 0.5) / (2 * height), (rows + 0.5) / height
     for along_u in steps / 2:
         for along_v in steps:
-            d = np.stack(optics.direction_at(*np.meshgrid(u + along_u, v + along_v), 0.0))
+            at_u, at_v = np.meshgrid(u + along_u, v + along_v)
+            d = np.stack(optics.direction_at(at_u, at_v, 0.0))
             inside = np.tensordot(towards_sun, d, 1) > np.cos(SUN_ANGLE)
             covered[rows] += inside * np.sin(np.pi * (v + along_v))[:, None]
     if not covered.any():
