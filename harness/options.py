@@ -59,7 +59,9 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--camera", metavar="NAME", help="which of a glTF file's cameras, by name or number")
     parser.add_argument("--size", metavar="WxH", default=DEFAULT_SIZE, help="in pixels (default %(default)s)")
     parser.add_argument(
-        "--environment", metavar="FILE", help="a latitude-longitude map, .hdr or .exr, in place of the scene's own"
+        "--environment",
+        metavar="FILE",
+        help="a latitude-longitude map, .hdr or .exr, in place of the scene's own; or a built-in one: sky, studio",
     )
     parser.add_argument(
         "--rotate", type=number, metavar="DEG", default=0.0, help="turn it about +Y, anticlockwise from above"
@@ -145,13 +147,16 @@ def scene(args: argparse.Namespace):
         if args.rotate or args.environment_clamp:
             raise UsageError("--rotate and --environment-clamp are of the map that --environment names")
         return found
-    from lightmeter.scenes.environments import environment_from
+    from lightmeter.scenes.environments import BUILT_IN, built_in, environment_from
     from lightmeter.scenes.framing import LIGHTS_NOTE
 
     notes: list[str] = []
-    around = environment_from(
-        Path(args.environment), degrees=args.rotate, clamp=args.environment_clamp, note=notes.append
-    )
+    if args.environment in BUILT_IN:
+        around = built_in(args.environment, degrees=args.rotate)
+    else:
+        around = environment_from(
+            Path(args.environment), degrees=args.rotate, clamp=args.environment_clamp, note=notes.append
+        )
     if LIGHTS_NOTE in found.notes:  # the map gives light, so that no rig is needed
         found = replace(found, lights=(), notes=tuple(note for note in found.notes if note != LIGHTS_NOTE))
     return replace(found, environment=around, notes=(*found.notes, *notes))

@@ -101,6 +101,17 @@ class Device:
         texture.repeat_x = texture.repeat_y = False
         return texture
 
+    def cube(self, faces: np.ndarray):
+        """A cube map of (6, side, side, 4) float32, +x −x +y −y +z −z, with mip levels, interpolated across edges."""
+        self.counts["textures"] += 1
+        side = faces.shape[1]
+        data = np.ascontiguousarray(faces, np.float32).tobytes()
+        texture = self.gl.texture_cube((side, side), 4, data, alignment=1, dtype="f4")
+        texture.build_mipmaps()
+        texture.filter = (self.gl.LINEAR_MIPMAP_LINEAR, self.gl.LINEAR)
+        self.gl.enable_direct(0x884F)  # GL_TEXTURE_CUBE_MAP_SEAMLESS, which moderngl has no name for
+        return texture
+
     def framebuffer(self, colors: Iterable[Any], depth: Any = None):
         """A framebuffer over existing textures."""
         return self.gl.framebuffer(list(colors), depth)

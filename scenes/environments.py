@@ -1,4 +1,4 @@
-"""Environment maps from files."""
+"""Environment maps from files, and those built in."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +13,36 @@ LARGEST = 1 << 26
 
 SMALLEST = (2, 1)
 """Width and height of a map."""
+
+
+BUILT_IN = {
+    "sky": "a clear sky with its sun at 45° over a grey ground",
+    "studio": "soft boxes in a dark grey room",
+}
+"""Maps that need no file."""
+
+
+def built_in(
+    name: str,
+    radiance: Vector = (1.0, 1.0, 1.0),
+    degrees: float = 0.0,
+    elevation: float | None = None,
+    turbidity: float | None = None,
+) -> Environment:
+    """The environment of a built-in map.
+
+    Args:
+        name: in `BUILT_IN`.
+        radiance, degrees: as of `environment_from`.
+        elevation, turbidity: of the sky, see `sky.sky`; None: its own.
+    """
+    from lightmeter.scenes.sky import sky
+    from lightmeter.scenes.studio import studio
+
+    given = {"elevation": elevation, "turbidity": turbidity}
+    chosen = {key: value for key, value in given.items() if value is not None}
+    image = sky(**chosen) if name == "sky" else studio()
+    return Environment(radiance, image, float(np.radians(degrees)))
 
 
 def environment_from(
@@ -39,7 +69,10 @@ def environment_from(
         texels = read_image(path, encoding="linear", max_pixels=LARGEST)
     except ImageError as error:
         raise SceneError(
-            "the environment map cannot be read", where=str(path), actual=str(error), remedy="use an .hdr or .exr file"
+            "the environment map cannot be read",
+            where=str(path),
+            actual=str(error),
+            remedy=f"use an .hdr or .exr file, or a built-in map: {', '.join(BUILT_IN)}",
         ) from None
     return Environment(radiance, Image(_checked(texels, clamp, str(path), note), path.name), float(np.radians(degrees)))
 

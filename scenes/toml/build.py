@@ -10,7 +10,7 @@ import numpy as np
 from lightmeter.scenes import framing, shapes
 from lightmeter.scenes.checks import Budget, check_shapes
 from lightmeter.scenes.dressing import dressed
-from lightmeter.scenes.environments import environment_from
+from lightmeter.scenes.environments import BUILT_IN, built_in, environment_from
 from lightmeter.scenes.errors import SceneError, nearest, shown
 from lightmeter.scenes.files import inside, read_bytes
 from lightmeter.scenes.images import read_image
@@ -90,6 +90,8 @@ class Builder:
     def environment(self, entry: entries.EnvironmentEntry) -> Environment:
         if entry.map is None:
             return Environment(entry.radiance)
+        if entry.map in BUILT_IN:
+            return built_in(entry.map, entry.radiance, entry.rotate, entry.elevation, entry.turbidity)
         path = inside(self.folder, entry.map, f"{self.where}: environment.map")
         return environment_from(path, entry.radiance, entry.rotate, entry.clamp, self.notes.append)
 

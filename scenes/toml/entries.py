@@ -156,6 +156,12 @@ class EnvironmentEntry(Strict):
         description="A latitude-longitude map beside the scene file, .hdr or .exr, or a built-in one: studio, sky.",
     )
     rotate: Number = Field(0.0, description="Degrees about +Y, anticlockwise as seen from above.")
+    elevation: Annotated[float, Field(strict=True, gt=0, le=90)] | None = Field(
+        None, description="Of the built-in sky: the sun's, in degrees above the horizon; 45 unless given."
+    )
+    turbidity: Annotated[float, Field(strict=True, ge=2, le=10)] | None = Field(
+        None, description="Of the built-in sky: 2 (clear) to 10 (hazy); 3 unless given."
+    )
     clamp: bool = Field(
         False, description="Negative, infinite and NaN texels become 0, the largest finite value and 0, with a note."
     )
@@ -166,6 +172,8 @@ class EnvironmentEntry(Strict):
             raise ValueError("an environment has a radiance, a map or both")
         if self.map is None and (self.rotate or self.clamp):
             raise ValueError("rotate and clamp are of a map, and there is none")
+        if self.map != "sky" and (self.elevation is not None or self.turbidity is not None):
+            raise ValueError("elevation and turbidity are of the built-in map 'sky'")
         return self
 
 

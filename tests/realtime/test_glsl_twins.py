@@ -29,6 +29,7 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 
 NOT_TWINNED = {
     "ltc_area_light.glsl": {"cut_side", "add_side"},  # hand structures on: test_ltc.py
+    "split_sum.glsl": {"irradiance"},  # chooses which to look up: test_environments.py
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
