@@ -109,8 +109,8 @@ class Effect:
         knobs: its settings.
         rank: among effects for the same term the lowest is taken by default.
         channels: the G-buffer channels it reads, see `gbuffer.CHANNELS`.
-        reads_scattered: whether it reads the lit frame so far (`scattered_light` in its shader): it is drawn after direct
-            light and the environment.
+        reads_scattered: whether it reads the lit frame so far (`scattered_light` in its shader), and so is drawn after
+            direct light and the environment.
         lights: which lights it handles, for terms of a light.
         unneeded: why this scene does not need it; "" where it does.
         uniforms: values for its shader besides its knobs, from scene, knobs and light (None outside lights).
