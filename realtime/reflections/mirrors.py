@@ -58,10 +58,10 @@ def flat_mirrors(scene: Scene) -> tuple[FlatMirror, ...]:
 
 
 def mirroring_shapes(scene: Scene) -> tuple[int, ...]:
-    """The smooth shapes, those with the largest boxes first."""
+    """The smooth shapes that are not flat, those with the largest boxes first."""
     sizes = {}
     for index, shape in enumerate(scene.shapes):
-        if is_smooth(shape):
+        if is_smooth(shape) and not is_flat(shape):
             low, high = box_of(shape)
             sizes[index] = float(np.linalg.norm(high - low))
     return tuple(sorted(sizes, key=lambda index: -sizes[index]))

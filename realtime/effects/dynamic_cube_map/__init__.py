@@ -9,13 +9,13 @@ from ...reflections.mirrors import SMOOTH, mirroring_shapes
 
 def unneeded(scene: Scene) -> str:
     """Why the scene does not need it."""
-    return "" if mirroring_shapes(scene) else f"no shape mirrors with a roughness of {SMOOTH} or less"
+    return "" if mirroring_shapes(scene) else f"no shape that is not flat mirrors with a roughness of {SMOOTH} or less"
 
 
 EFFECT = Effect(
     name="dynamic_cube_map",
     terms=("indirect",),
-    summary="Each smooth object reflects what is seen from its middle; other surfaces get constant ambient light.",
+    summary="Each smooth object that is not flat reflects what is seen from its middle; others get constant ambient light.",
     citation="Greene 1986, Environment Mapping and Other Applications of World Projections",
     knobs=(
         SIZE,

@@ -1,5 +1,6 @@
 """Draws what each mirror shows."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ from ...effect import Knobs
 from ...lit_views import LitViews
 from ...projection import projection_matrix, view_matrix
 from ...reflections.mirrors import FlatMirror, clipped_at, flat_mirrors, reflection
+from ...shadows.views import corners_of
 from ...stage import Stage
 
 EXCHANGED = np.diag([-1.0, 1.0, 1.0, 1.0])
@@ -37,7 +39,10 @@ class Passes:
         view = view_matrix(camera) @ reflection(mirror.plane)
         # In the mirrored camera's space the scene in front of the mirror lies beyond it.
         plane = mirror.plane @ np.linalg.inv(view)
-        projection = projection_matrix(camera, stage.size, stage.gbuffer.offset)
+        # Mirrored, the camera stands farther from the scene; the clipped view's far plane slopes, too.
+        corners = np.column_stack([corners_of(stage.scene), np.ones(8)])
+        farthest = replace(camera, far=max(camera.far, 10 * float(np.max(-(corners @ view[2])))))
+        projection = projection_matrix(farthest, stage.size, stage.gbuffer.offset)
         return EXCHANGED @ clipped_at(projection, plane) @ view
 
     def defines(self, _light: int | None) -> dict[str, object]:
