@@ -15,7 +15,7 @@ def unneeded(scene: Scene) -> str:
 EFFECT = Effect(
     name="dynamic_cube_map",
     terms=("indirect",),
-    summary="Each smooth object that is not flat reflects what is seen from its middle; others get constant ambient light.",
+    summary="Each smooth object that is not flat reflects what its middle sees; others get constant ambient light.",
     citation="Greene 1986, Environment Mapping and Other Applications of World Projections",
     knobs=(
         SIZE,
