@@ -21,9 +21,9 @@ def small_scene() -> Scene:
     """A metal floor as smooth as materials can be (α = 10⁻³), which shows nothing but one matt wall.
 
     The path length of 3 ends where the mirror's picture does: with direct light on what it shows. The wall covers the
-    whole reflection and its light varies slowly, so that the lobe costs little: half of it comes from within 10⁻³ rad, GGX's
-    tail takes α²/(α² + tan²θ) of it from beyond θ (1 % from beyond 0.6°, 0.01 % from beyond 6°), as much from either
-    side. Below 10⁻³ of the mean is where a mirror is; one pixel aside is 35 times that.
+    whole reflection and its light varies slowly, so that the lobe costs little: half of it comes from within 10⁻³ rad,
+    and GGX's tail takes α²/(α² + tan²θ) of it from beyond θ (1 % from beyond 0.6°, 0.01 % from beyond 6°), as much from
+    either side. Below 10⁻³ of the mean is where a mirror is; one pixel aside is 35 times that.
     """
     metal = Material("metal", (0.9, 0.8, 0.7), metallic=1.0, roughness=0.0)
     clay = Material("clay", (0.6, 0.5, 0.4), specular=0.0)

@@ -76,6 +76,7 @@ EFFECT = Effect(
     rank=5,
     channels=CHANNELS,
     reads_scattered=True,
+    verdicts=("none", "met", "left", "hidden", "open"),
     unneeded=nothing_mirrors,
     uniforms=uniforms,
     defines=defines,

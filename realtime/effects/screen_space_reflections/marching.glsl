@@ -2,10 +2,12 @@
 uniform float thickness; // metres behind a surface
 uniform float reach;     // metres
 
-const int MET = 0;    // it met a surface
-const int LEFT = 1;   // it left the screen, or came nearer than the camera sees
-const int HIDDEN = 2; // it passed behind a surface, and met none after that
-const int OPEN = 3;   // it went on in sight and met none
+const int NONE = 0;   // there was no ray
+const int MET = 1;    // it met a surface
+const int LEFT = 2;   // it left the screen, or came nearer than the camera sees
+const int HIDDEN = 3; // it passed behind a surface, and met none after that
+const int OPEN = 4;   // it went on in sight, or its steps ended, and it met none
+int verdict = NONE;
 
 float scene_depth(ivec2 pixel) {
     vec4 position = texelFetch(gbuffer_position, pixel, 0);

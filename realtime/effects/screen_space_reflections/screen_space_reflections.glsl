@@ -21,7 +21,7 @@ vec3 unmet(Surface surface, vec3 direction) {
 
 vec3 seen_along(Surface surface, vec3 direction) {
     vec2 place;
-    int verdict = MARCH(screen_ray(surface.position, direction), place);
+    verdict = MARCH(screen_ray(surface.position, direction), place);
     return verdict == MET ? texelFetch(scattered_light, ivec2(place), 0).rgb : unmet(surface, direction);
 }
 
