@@ -22,6 +22,7 @@ from lightmeter.metrics.sequential import LEAST_COUNT, effective_count, squared_
 from lightmeter.object_errors import object_errors
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
+from lightmeter.ray_errors import ray_errors
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
@@ -182,6 +183,7 @@ def compare(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
+        rays=() if bad.total() else ray_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

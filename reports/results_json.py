@@ -36,6 +36,8 @@ from lightmeter.reports.results import (
     ObjectError,
     PassTime,
     Player,
+    RayError,
+    RayPart,
     Reference,
     Results,
     Timing,
@@ -103,6 +105,7 @@ def from_json(text: str) -> Results:
         attribution=top.get("attribution", None).maybe(_attribution),
         display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
+        rays=tuple(_ray_error(item) for item in top.get("rays", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
@@ -303,6 +306,17 @@ def _light_shadow(node: _Node) -> LightShadow:
         parts={
             kind: {name: _shadow_part(part) for name, part in places.nodes().items()}
             for kind, places in node.get("parts").nodes().items()
+        },
+    )
+
+
+def _ray_error(node: _Node) -> RayError:
+    return RayError(
+        effect=node.get("effect").text(),
+        rmse=_measurement(node.get("rmse")),
+        parts={
+            fate: RayPart(part.get("pixels").integer(), _measurement(part.get("share")))
+            for fate, part in node.get("parts").nodes().items()
         },
     )
 
