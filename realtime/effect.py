@@ -108,6 +108,7 @@ class Effect:
         citation: author, year, title, equation.
         knobs: its settings.
         rank: among effects for the same term the lowest is taken by default.
+        on_request: taken only where it is asked for by name.
         channels: the G-buffer channels it reads, see `gbuffer.CHANNELS`.
         lights: which lights it handles, for terms of a light.
         unneeded: why this scene does not need it; "" where it does.
@@ -126,6 +127,7 @@ class Effect:
     citation: str
     knobs: tuple[Knob, ...] = ()
     rank: int = 0
+    on_request: bool = False
     channels: tuple[str, ...] = ()
     lights: Callable[[Scene, Light], bool] = lambda _scene, _light: True
     unneeded: Callable[[Scene], str] = always

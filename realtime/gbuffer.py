@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.model import Material, Scene, Texture, Vector
+from lightmeter.scenes.model import Camera, Material, Scene, Texture, Vector
 from lightmeter.scenes.points import SurfacePoints
 
 from .background import Background
@@ -121,6 +121,13 @@ class GBuffer:
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
+        self._offset = np.zeros(2)
+
+    @property
+    def view_projection(self) -> np.ndarray:
+        """(4, 4) float64: world to clip space, at the sub-pixel offset of what the G-buffer holds."""
+        camera = self._scene.camera
+        return projection_matrix(camera, self._size, tuple(self._offset)) @ view_matrix(camera)
 
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
@@ -129,16 +136,16 @@ class GBuffer:
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
-        gl, camera = self._device.gl, self._scene.camera
+        gl = self._device.gl
         self._framebuffer.use()
         self._framebuffer.clear()
         if self._cleared is not None:
             self._cleared.clear()
             self._framebuffer.use()
         gl.enable_only(gl.DEPTH_TEST)
-        matrix = projection_matrix(camera, self._size, offset) @ view_matrix(camera)
+        self._offset = np.array(offset)
         for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix})
+            set_uniforms(program, {"view_projection": self.view_projection})
         for draw in self._draws:
             draw.uniforms.write()
             bind(draw.program, draw.textures)
@@ -159,6 +166,7 @@ class GBuffer:
                 data[..., 3] = 1.0
             data[~points.hit] = 0.0
             self.textures[attachment.name].write(np.ascontiguousarray(data[::-1]), alignment=1)
+        self._offset = sampled_at(self._scene.camera, points)
 
     def channel(self, name: str) -> np.ndarray:
         """A channel's values, (H, W) or (H, W, 3) float32, row 0 at the top."""
@@ -204,6 +212,18 @@ class GBuffer:
 
     def _writes(self) -> str:
         return "\n".join(f"    out_{a.name} = {a.expression};" for a in self._attachments)
+
+
+def sampled_at(camera: Camera, points: SurfacePoints) -> np.ndarray:
+    """(2,) the sub-pixel offset, pixels right and down, at which points (H, W) were seen; a median, as float32 rounds."""
+    height, width = points.shape.shape
+    rows, columns = np.nonzero(points.hit)
+    if not len(rows):
+        return np.zeros(2)
+    matrix = projection_matrix(camera, (width, height)) @ view_matrix(camera)
+    clip = np.append(points.position[rows, columns], np.ones((len(rows), 1)), axis=1) @ matrix.T
+    seen = (clip[:, :2] / clip[:, 3:] * (1, -1) + 1) / 2 * (width, height)
+    return np.median(seen - np.stack([columns, rows], axis=1) - 0.5, axis=0)
 
 
 def usable_slots(batch: Batch) -> tuple[tuple[str, int, bool, bool], ...]:

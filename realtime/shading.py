@@ -37,7 +37,7 @@ class ShadingPass:
 
     @property
     def has_map(self) -> bool:
-        """Whether the effect draws something beforehand for each light."""
+        """Whether the effect draws something beforehand, for each light or for the frame."""
         return hasattr(self.own, "draw")
 
     def part(self, step: Step) -> Rectangle | None:
@@ -74,7 +74,7 @@ class ShadingPass:
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
         textures |= self._tables
-        if self.own is not None and step.light is not None:
+        if self.own is not None:
             textures |= self.own.textures(step.light)
         bind(program, textures)
         device.draw(vertices, 3)
@@ -85,13 +85,13 @@ class ShadingPass:
         scene = self._stage.scene
         light = None if step.light is None else scene.all_lights[step.light]
         values = dict(self._knobs) | self._effect.uniforms(scene, self._knobs, light)
-        if self.own is not None and step.light is not None:
+        if self.own is not None:
             values |= self.own.uniforms(step.light)
         return values | {"viewer": viewer(scene.camera)}
 
     def _program(self, step: Step):
         own = dict(self._effect.defines(self._knobs))
-        if self.own is not None and step.light is not None:
+        if self.own is not None:
             own |= self.own.defines(step.light)
         reads = () if self._separate else step.reads
         key = (step.writes, reads, tuple(own.items()))

@@ -34,6 +34,7 @@ NOT_TWINNED = {
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py
     "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
+    "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
 """Plumbing; what reads a texture, or calls what does, is told by its text."""

@@ -1,22 +1,12 @@
 // Light of one radiance from everywhere, reflected by the Lambert base and by GGX's directional albedo.
-#include "brdf.glsl"
+#include "ambient_parts.glsl"
 uniform vec3 environment_radiance;
 uniform vec3 indirect_radiance;
 
-// Scale and bias of F0 in GGX's directional albedo: a fit for mobile hardware (Karis 2014, "Physically Based Shading on
-// Mobile"; every constant is its).
-vec2 environment_brdf(float roughness, float n_dot_v) {
-    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a004 = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a004 + r.zw;
-}
-
-// The share of light from everywhere that is reflected; what a dielectric mirrors its base does not get.
+// The share of light from everywhere that is reflected.
 vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float specular, float n_dot_v) {
     vec2 brdf = environment_brdf(roughness, n_dot_v);
-    vec3 mirrored = reflectance_f0(base_color, metallic, specular) * brdf.x + reflectance_f90(metallic, specular) * brdf.y;
-    float above = specular * (0.04 * brdf.x + brdf.y);
-    return mirrored + (1.0 - above) * diffuse_color(base_color, metallic);
+    return mirrored_share(brdf, base_color, metallic, specular) + scattered_share(brdf, base_color, metallic, specular);
 }
 
 vec3 environment(Surface surface) {
