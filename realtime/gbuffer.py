@@ -215,7 +215,7 @@ class GBuffer:
 
 
 def sampled_at(camera: Camera, points: SurfacePoints) -> np.ndarray:
-    """(2,) the sub-pixel offset, pixels right and down, at which points (H, W) were seen; a median, as float32 rounds."""
+    """(2,) the sub-pixel offset, pixels right and down, at which points (H, W) were seen: the median of all."""
     height, width = points.shape.shape
     rows, columns = np.nonzero(points.hit)
     if not len(rows):

@@ -1,5 +1,7 @@
 """Ambient visibility on the device: what it costs, where it takes part, and scenes whose answer is known."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -9,12 +11,13 @@ from lightmeter.scenes import shapes
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Material, Shape, Texture
 
+from ..sphere_occlusion import hidden_by_quadrature, hidden_by_sphere
 from .small_scenes import WHITE, camera, facing, image, moved, renderer, scene_of
 from .test_costs import counted
 
 BALL = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
 SKY = scene_of(facing(WHITE), BALL, radiance=(1, 1, 1))
-SCREEN_SPACE = ("ssao",)
+SCREEN_SPACE = ("ssao", "gtao")
 
 
 def visibility(device, scene, name, size=(64, 64), **knobs):
@@ -69,7 +72,7 @@ def test_points_that_were_drawn_give_what_was_drawn(device, name, resolution):
 def test_a_plane_is_not_hidden_by_itself(device, name, lens):
     """Seen at an angle of 45°, with a ball far beyond the radius.
 
-    A place is compared with what the pixel's centre shows, half a pixel aside: SSAO needs a bias of a pixel's depth, 4 cm.
+    A place is compared with what the pixel's centre shows, half a pixel aside: SSAO needs a bias of a pixel.
     """
     far = Shape("ball", shapes.sphere(0.05, segments=8), WHITE, moved(x=3.0, z=0.05))
     scene = scene_of(facing(WHITE, 10, 10), far, view=camera((0, -2, 2), **lens), radiance=(1, 1, 1))
@@ -77,3 +80,59 @@ def test_a_plane_is_not_hidden_by_itself(device, name, lens):
     plane = points.shape == 0
     assert plane.sum() > 2000
     np.testing.assert_allclose(found[plane], 1.0, atol=2e-3)
+
+
+def error_under_a_ball(device, height, slices, steps, radius=0.4):
+    """GTAO less the closed form, on a plane around a ball with its centre at that height, seen from straight above."""
+    ball = Shape("ball", shapes.sphere(radius, segments=128), WHITE, moved(z=height))
+    scene = scene_of(facing(WHITE, 12, 12), ball, view=camera((0, 0, 5)), radiance=(1, 1, 1))
+    knobs = {"radius": 20.0, "falloff": 0.0, "blur": "none", "specular_occlusion": "same"}
+    found, points = visibility(device, scene, "gtao", (128, 128), slices=slices, steps=steps, **knobs)
+    aside = np.linalg.norm(points.position[..., :2], axis=2)
+    around = (points.shape == 0) & (aside > 1.1 * radius)
+    distance = np.hypot(aside[around], height)
+    return found[around, 0] - (1 - hidden_by_sphere(distance, height / distance, radius))
+
+
+def test_the_closed_form_for_a_sphere_holds():
+    """The grid's cells at the rim of sphere and disk are half in: 1200 a side leave a few parts in ten thousand."""
+    for distance, cosine in ((1.5, 0.9), (1.5, 0.0), (2.0, 0.3), (2.0, -0.2), (1.1, -0.4)):
+        exact = hidden_by_sphere(np.array(distance), np.array(cosine), 1.0)
+        assert hidden_by_quadrature(distance, cosine, 1.0) == pytest.approx(exact, abs=3e-4)
+
+
+def test_gtao_converges_to_the_closed_form_around_a_dome(device):
+    """Half a ball on a plane, from above: a height field, and all of it is seen, so GTAO has nothing to guess.
+
+    The midpoint rule over slices and the highest of so many places have errors of second order: twice as many of both
+    leave a quarter. So what the last doubling leaves is a third of the error before at most, or it converges elsewhere.
+    """
+    errors = [np.sqrt(np.mean(error_under_a_ball(device, 0.0, s, 4 * s) ** 2)) for s in (2, 4, 8, 16)]
+    assert errors[0] > 0.02
+    for before, after in pairwise(errors):
+        assert after < before / 2.5
+    assert errors[-1] < errors[-2] / 3
+
+
+def test_gtao_takes_what_lies_under_a_ball_for_hidden(device):
+    """A ball in the air is no height field: light that comes in under it is lost, whatever the number of slices."""
+    error = error_under_a_ball(device, 0.7, 16, 64)
+    assert error.mean() < -0.02
+    assert np.percentile(error, 99) < 0.01
+
+
+@pytest.mark.parametrize("choice", ["same", "none", "lagarde", "cone"])
+def test_specular_occlusion_is_of_the_mirrored_part_alone(device, choice):
+    """A Lambert surface has none: every choice gives the same. A mirror has nothing else: `none` leaves it bright."""
+    ball = Shape("ball", shapes.sphere(0.4, segments=32), WHITE, moved(z=0.4))
+    for material in (WHITE, Material("mirror", (1, 1, 1), metallic=1.0, roughness=0.3)):
+        scene = scene_of(facing(material), ball, radiance=(1, 1, 1))
+        found, points = visibility(device, scene, "gtao", specular_occlusion=choice)
+        same, _ = visibility(device, scene, "gtao", specular_occlusion="same")
+        card = points.shape == 0
+        if material is WHITE or choice == "same":
+            np.testing.assert_allclose(found[card], same[card], atol=1e-4)
+        elif choice == "none":
+            np.testing.assert_allclose(found[card], 1.0, atol=1e-4)
+        else:
+            assert np.abs(found - same)[card].max() > 0.05
