@@ -161,10 +161,11 @@ def compare(
         effects=tuple(
             outcome.Effect(
                 effect=name,
-                terms=tuple(term for term in plan.effects[name][0].terms if term not in truth.missing),
+                terms=plan.terms_of(name),
                 knobs=dict(plan.effects[name][1]),
                 metrics=measured[name],
                 time_ms=_timing(times.of(name)),
+                bake_ms=renderer.baking.milliseconds.get(name),
                 share=_share(shared, name),
             )
             for name in _order(plan)

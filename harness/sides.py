@@ -102,7 +102,7 @@ def effect_sides(
         if name is not None:
             sums[name] = _Sums()
     composed = material is not None or coverage is not None
-    terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
+    terms = tuple(TERMS) if composed else {term for name in shading for term in plan.terms_of(name)}
     exact_points = at.exact_points if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)

@@ -196,7 +196,7 @@ class EffectSubject(ImageSubject):
         at, spp = self._at, self._at.spp_of(self.spp) * size
         plan, truth = self.case.plan, self.case.truth
         if not self.composed:
-            terms = plan.effects[self.effect][0].terms
+            terms = plan.terms_of(self.effect)
             exact = truth.batch(at.points, number, "frame", spp, remember=False, terms=terms)
             both = contribution(plan, self.effect, at.captures, exact)
             return np.stack([mean_samples(image) for image in both])

@@ -155,7 +155,7 @@ class Sweeping:
         return Measured(plan, visit, errors, [renderer.record(FRAMES, WARM_UP)])
 
     def _own_sides(self, renderer: Renderer, name: str) -> Sides:
-        terms = renderer.plan.effects[name][0].terms
+        terms = renderer.plan.terms_of(name)
         if terms[0] in DISPLAY_TERMS:
             return display_sides(renderer.plan, list(self._truth.reference.batches))[name]
         if terms == ("coverage",):
@@ -167,7 +167,7 @@ class Sweeping:
         passes = has_passes(self._plan, name)
         return found.SweptEffect(
             effect=name,
-            terms=declaration.terms,
+            terms=self._plan.terms_of(name),
             own_time="its passes" if passes else "the whole frame",
             comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
             settings=tuple(self._setting(name, item, passes) for item in listed),

@@ -72,7 +72,13 @@ class Plan:
 
     def effect_of(self, term: str) -> str | None:
         """The name of the effect that gives a term of the frame; None where none does."""
-        return next((name for name, (effect, _) in self.effects.items() if term in effect.terms), None)
+        return next((name for name in self.effects if term in self.terms_of(name)), None)
+
+    def terms_of(self, effect: str) -> tuple[str, ...]:
+        """What an effect gives of this frame: another may be preferred for some of the terms that it declares."""
+        declared = self.effects[effect][0].terms
+        drawn = {term for step in self.steps if step.effect == effect for term in step.writes}
+        return tuple(term for term in declared if term in drawn or term not in DRAWN_TERMS)
 
     def why_absent(self, effect: str) -> str:
         """Why an effect that exists takes no part in this frame."""

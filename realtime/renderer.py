@@ -10,6 +10,7 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 
 from .averager import Averager
+from .baking import Baking
 from .device import Device
 from .display import DISPLAY_TERMS, DisplayPass
 from .gbuffer import CHANNELS, GBuffer
@@ -53,7 +54,11 @@ class Capture:
 
 
 class Renderer:
-    """Renders one plan at one size. Everything is compiled and uploaded once, here."""
+    """Renders one plan at one size. Everything is compiled, uploaded and baked once, here.
+
+    Attributes:
+        baking: what the plan's effects baked, and in what time.
+    """
 
     def __init__(self, device: Device, plan: Plan, size: tuple[int, int]) -> None:
         self.device, self.plan, self.size = device, plan, size
@@ -62,7 +67,8 @@ class Renderer:
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance)
-        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size)
+        self.baking = Baking(device)
+        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size, self.baking)
         self._passes = self._make_passes(self._stage, separate=False)
         self._visibility = {
             term: device.target(size) for term in VISIBILITIES if any(term in step.writes for step in plan.steps)
@@ -213,7 +219,7 @@ class Renderer:
             gbuffer = GBuffer(
                 self.device, self._geometry, self.plan.scene, self.size, channels, radiance, identity=True
             )
-            stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size)
+            stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size, self.baking)
             self._captured = gbuffer, self._make_passes(stage, separate=True)
         return self._captured
 

@@ -34,6 +34,8 @@ class ShadingPass:
         if (effect.folder / "passes.py").is_file():
             module = import_module(f"{__package__}.effects.{effect.name}.passes")
             self.own = module.Passes(stage, knobs, effect.folder)
+            if hasattr(self.own, "bake"):
+                self.own.baked = stage.baking.of(effect.name, self.own.bake)
 
     @property
     def has_map(self) -> bool:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from lightmeter.scenes.model import Scene
 
+from .baking import Baking
 from .device import Device
 from .gbuffer import GBuffer
 from .geometry import Geometry
@@ -15,6 +16,7 @@ class Stage:
 
     Attributes:
         size: width and height in pixels.
+        baking: what effects bake, shared by all stages of a renderer.
     """
 
     device: Device
@@ -22,3 +24,4 @@ class Stage:
     geometry: Geometry
     gbuffer: GBuffer
     size: tuple[int, int]
+    baking: Baking

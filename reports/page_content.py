@@ -142,6 +142,7 @@ def _effect_row(
         "bar": _bar(rmse, ends) if rmse else None,
         "cells": [_with_tail(name, effect.metrics) if name in effect.metrics else None for name in columns],
         "time": timed(effect.time_ms),
+        "baked": None if effect.bake_ms is None else show_number(effect.bake_ms),
         "share": measured(share) if share else None,
         "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()],
     }

@@ -64,6 +64,7 @@ class Effect:
         metrics: the effect's own error.
         time_ms: None where the effect has no pass of its own.
         share: metric name to the effect's share of the image's error; empty where not measured.
+        bake_ms: what was made once, before the first frame, took; None where nothing was.
     """
 
     effect: str
@@ -72,6 +73,7 @@ class Effect:
     metrics: Metrics = field(default_factory=dict)
     time_ms: Timing | None = None
     share: Metrics = field(default_factory=dict)
+    bake_ms: float | None = None
 
 
 @dataclass(frozen=True)

@@ -246,6 +246,7 @@ def _effect(node: _Node) -> Effect:
         knobs=node.get("knobs", {}).mapping(),
         metrics=_metrics(node.get("metrics")),
         time_ms=node.get("time_ms", None).maybe(_timing),
+        bake_ms=node.get("bake_ms", None).maybe(_Node.number),
         share=_metrics(node.get("share", {})),
     )
 

@@ -18,7 +18,7 @@ from lightmeter.reports.percentages import in_percent, percent_of
 from lightmeter.reports.results import Attribution, ObjectError, Results
 from lightmeter.reports.shadow_content import shadow_line
 from lightmeter.reports.shown_names import printable
-from lightmeter.reports.significant import show_measurement
+from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.terminal_cells import bare, full, milliseconds, number, reason
 
 if TYPE_CHECKING:
@@ -42,6 +42,8 @@ def comparison(results: Results) -> Group:
     from rich.text import Text
 
     parts: list = [comparison_table(results), *_tails(results)]
+    if baked := [f"{e.effect} {show_number(e.bake_ms)} ms" for e in results.effects if e.bake_ms is not None]:
+        parts.append(reason("baked once, before the first frame", ", ".join(baked)))
     if results.nonfinite.total():
         parts.append(Text(_nonfinite(results), style="bold red"))
     if results.attribution:

@@ -37,7 +37,7 @@ def test_document_has_the_stable_keys() -> None:
     assert set(document) >= {"schema", "device", "reference", "frame", "effects", "closure", "left_out", "nonfinite"}
     assert set(document["reference"]) == {"spp", "batches", "seconds", "cached"}
     assert set(document["frame"]["time_ms"]) == {"median", "mad", "frames"}
-    assert set(document["effects"][0]) == {"effect", "terms", "knobs", "metrics", "time_ms", "share"}
+    assert set(document["effects"][0]) == {"effect", "terms", "knobs", "metrics", "time_ms", "share", "bake_ms"}
     assert set(document["closure"]) == {"metrics", "bias"}
     assert set(document["nonfinite"]) >= {"frame", "effects"}
     assert document["frame"]["metrics"]["flip"]["floor"] == 0.0041
