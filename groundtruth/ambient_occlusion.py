@@ -1,8 +1,8 @@
 """Classical ambient occlusion: the cosine-weighted share of directions in which nothing is within a radius.
 
-What most real-time techniques set out to compute (Zhukov, Iones & Kronin 1998, "An Ambient Light Illumination Model"). It is
-not the term `environment_visibility`, which is occluded over unoccluded *reflected* radiance: that one knows the material,
-the environment's own distribution and no radius. Held beside it, it tells a technique's idea from its execution.
+What most real-time techniques set out to compute (Zhukov, Iones & Kronin 1998, "An Ambient Light Illumination Model").
+It is not the term `environment_visibility`, which is occluded over unoccluded *reflected* radiance: that one knows the
+material, how the environment's light is spread, and no radius. Beside it, this tells a technique's aim from its means.
 """
 
 import math

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lightmeter.ambient_errors import ambient_errors
 from lightmeter.attribution import Shares, attribute
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import Gathered, gather
@@ -182,6 +183,7 @@ def compare(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
+        ambient=() if bad.total() else ambient_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

@@ -22,6 +22,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.shadow_error import ShadowPart
 from lightmeter.reports.results import (
     SCHEMA,
+    AmbientError,
     Attribution,
     Candidate,
     Closure,
@@ -104,6 +105,7 @@ def from_json(text: str) -> Results:
         display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
+        ambient=tuple(_ambient_error(item) for item in top.get("ambient", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
             FailedCandidate(item.get("name").text(), item.get("why").text())
@@ -304,6 +306,15 @@ def _light_shadow(node: _Node) -> LightShadow:
             kind: {name: _shadow_part(part) for name, part in places.nodes().items()}
             for kind, places in node.get("parts").nodes().items()
         },
+    )
+
+
+def _ambient_error(node: _Node) -> AmbientError:
+    return AmbientError(
+        effect=node.get("effect").text(),
+        truth=node.get("truth").text(),
+        radius=node.get("radius").maybe(_Node.number),
+        metrics=_metrics(node.get("metrics")),
     )
 
 
