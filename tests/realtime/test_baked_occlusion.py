@@ -52,9 +52,9 @@ def test_a_spacing_that_is_too_small_says_so():
 
 
 def test_a_plane_around_a_ball_is_baked_to_the_closed_form(device):
-    """Of 256 directions in the hemisphere, 0.16 apart, the ball's edge (a cap of 29° at most: 3.0 around) cuts the cells of
-    19, each in or out: √19/2 cells of 1/256, weighted with up to 2·cos θ: 1.5 %. Vertices 5 cm apart and the maps' texels
-    of 2 cm move a point by less than a tenth of its distance from the ball."""
+    """Of 256 directions in the hemisphere, 0.16 apart, the ball's edge (a cap of 29° at most: 3.0 around) cuts 19
+    cells, each in or out: √19/2 cells of 1/256, weighted with up to 2·cos θ: 1.5 %. Vertices 5 cm apart and the maps'
+    texels of 2 cm move a point by less than a tenth of its distance from the ball."""
     ball = Shape("ball", shapes.sphere(0.4, segments=64), WHITE, moved(z=0.7))
     scene = scene_of(facing(WHITE, 4, 4), ball, view=camera((0, 0, 5)), radiance=(1, 1, 1))
     found, points, _ = baked(device, scene, spacing=0.05, directions=512, map=256)
@@ -100,7 +100,7 @@ def test_a_mask_s_holes_are_open(device):
 
 
 def test_it_costs_a_draw_for_each_shape_where_it_is_asked_for_and_nothing_else():
-    """Beside the baking (a program, a depth map): a program, a texture and its depth; the visibility's buffer and program.
+    """Beside the baking (a program, a depth map): a program, a texture and its depth; a buffer and its program.
 
     A draw for each shape and one for the visibility.
     """
