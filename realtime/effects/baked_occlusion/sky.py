@@ -49,7 +49,8 @@ class Sky:
         for direction in directions(count):
             weight = np.maximum(normals @ direction, 0)
             matrix = view_from(direction, self._centre, self._radius)
-            seen += weight * self._lit(matrix, positions)
+            facing = weight > 0
+            seen[facing] += weight[facing] * self._lit(matrix, positions[facing])
             all_of_it += weight
         return np.where(all_of_it > 0, seen / np.maximum(all_of_it, 1e-300), 1)
 

@@ -10,7 +10,7 @@ EFFECT = Effect(
     citation="Mittring 2007, Finding Next Gen: CryEngine 2; Chapman 2011, SSAO Tutorial; de Vries 2015, Learn OpenGL: "
     "SSAO (kernel, 4 × 4 rotations, range check, box blur)",
     knobs=(
-        Knob("samples", 64, "Places in the hemisphere.", low=1, high=256, sweep=(8, 16, 32, 64, 128)),
+        Knob("samples", 64, "Places in the hemisphere.", low=1, high=128, sweep=(8, 16, 32, 64, 128)),
         radius(0.5),
         Knob(
             "bias",
