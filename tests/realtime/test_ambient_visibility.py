@@ -136,3 +136,16 @@ def test_specular_occlusion_is_of_the_mirrored_part_alone(device, choice):
             np.testing.assert_allclose(found[card], 1.0, atol=1e-4)
         else:
             assert np.abs(found - same)[card].max() > 0.05
+
+
+@pytest.mark.parametrize("resolution", ["full", "half"])
+def test_a_blur_within_surfaces_leaves_a_plate_bright_above_its_dark_surroundings(device, resolution):
+    """The mean over all of 4 × 4 pixels takes the ground's darkness onto the plate."""
+    plate = Shape("plate", shapes.box(0.8, 0.8, 0.2), WHITE, moved(z=0.1))
+    scene = scene_of(facing(WHITE), plate, radiance=(1, 1, 1))
+    least = {}
+    for blur in ("bilateral", "box4"):
+        found, points = visibility(device, scene, "gtao", blur=blur, resolution=resolution)
+        least[blur] = found[(points.shape == 1) & (points.normal[..., 2] > 0.9)].min()
+    assert least["bilateral"] > 0.99
+    assert least["box4"] < 0.95
