@@ -3,33 +3,10 @@
 import numpy as np
 
 from ..shadows.twin import before_the_light, project, views
-from ..shared_twins import alpha, color, cosine, point, towards, unit
+from ..shared_twins import alpha, color, cosine, towards, unit
 from ..twin import Argument, Twin, logarithmic, uniform
 
 DEFINES = {"SPECULAR_OCCLUSION": "specular_lagarde", "SCALE": 1}
-
-BRDF_ROUNDINGS = 2 + 1 + 3 + 6 + 2 + 2
-"""r (2), its square (1), the exponent and exp2 (3; llvmpipe: 4.4·2⁻²⁴), both on numbers up to 9.28·n·v (6), a004 (2),
-the result (2)."""
-
-
-def environment_brdf(roughness: np.ndarray, n_dot_v: np.ndarray) -> np.ndarray:
-    """Scale and bias of F0 in GGX's directional albedo, (2, n) (Karis 2014)."""
-    x, y = 1 - roughness, 0.0425 - 0.0275 * roughness
-    z, w = 1.04 - 0.572 * roughness, 0.022 * roughness - 0.04
-    a004 = np.minimum(x * x, 2.0 ** (-9.28 * n_dot_v)) * x + y
-    return np.stack([z - 1.04 * a004, w + 1.04 * a004])
-
-
-def mirrored_share(brdf, base_color, metallic, specular) -> np.ndarray:
-    """F0 and F90, each by its part, (3, n)."""
-    material = point(base_color, metallic, 1.0, specular)
-    return material.f0 * brdf[0] + material.f90 * brdf[1]
-
-
-def scattered_share(brdf, base_color, metallic, specular) -> np.ndarray:
-    """The base below a dielectric's microfacets, (3, n)."""
-    return (1 - specular * (0.04 * brdf[0] + brdf[1])) * point(base_color, metallic, 1.0, specular).diffuse
 
 
 def lagarde(visibility, n_dot_v, a, _bent) -> np.ndarray:
@@ -69,45 +46,10 @@ def screen_place(view_projection, place):
     return before, coordinate[:2]
 
 
-PARTS = (
-    Argument("brdf", "vec2", uniform(0.0, 1.0, 2), ((1.0, 0.0), (0.0, 0.0))),
-    color("base_color"),
-    unit("metallic"),
-    unit("specular"),
-)
 OCCLUSION = (unit("visibility"), cosine("n_dot_v"), alpha("alpha"))
 BENT = Argument("bent_dot_mirrored", "float", uniform(-1.0, 1.0), (-1.0, 0.0, 1.0))
 
 TWINS = (
-    Twin(
-        "ambient_parts.glsl",
-        "environment_brdf",
-        "vec2",
-        (unit("roughness"), cosine("n_dot_v")),
-        environment_brdf,
-        roundings=BRDF_ROUNDINGS,
-        why="see BRDF_ROUNDINGS",
-        cancels=1.04,
-    ),
-    Twin(
-        "ambient_parts.glsl",
-        "mirrored_share",
-        "vec3",
-        PARTS,
-        mirrored_share,
-        roundings=5 + 3,
-        why="F0 (5), a product and the sum, and one for what is not fused",
-    ),
-    Twin(
-        "ambient_parts.glsl",
-        "scattered_share",
-        "vec3",
-        PARTS,
-        scattered_share,
-        roundings=3 + 1 + 2 + 1,
-        why="above (3), 1 − above, c_diff (2) and the product",
-        cancels=1.0,
-    ),
     Twin(
         "specular_occlusion.glsl",
         "specular_as_diffuse",

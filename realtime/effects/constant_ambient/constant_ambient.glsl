@@ -1,12 +1,12 @@
 // Light of one radiance from everywhere, reflected by the Lambert base and by GGX's directional albedo.
-#include "ambient_parts.glsl"
+#include "ambient_albedo.glsl"
 uniform vec3 environment_radiance;
 uniform vec3 indirect_radiance;
 
 // The share of light from everywhere that is reflected.
 vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float specular, float n_dot_v) {
-    vec2 brdf = environment_brdf(roughness, n_dot_v);
-    return mirrored_share(brdf, base_color, metallic, specular) + scattered_share(brdf, base_color, metallic, specular);
+    return specular_albedo(base_color, metallic, roughness, specular, n_dot_v) +
+           diffuse_albedo(base_color, metallic, roughness, specular, n_dot_v);
 }
 
 vec3 environment(Surface surface) {
