@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lightmeter.ambient_errors import ambient_errors
 from lightmeter.attribution import Shares, attribute
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import Gathered, gather
@@ -184,6 +185,7 @@ def compare(
         ),
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
         rays=() if bad.total() else ray_errors(renderer, truth, at),
+        ambient=() if bad.total() else ambient_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

@@ -152,6 +152,13 @@ class Truth:
         here = [seen_emission(self._world, self.size, offset + 0.5) for offset in offsets]
         return everywhere - np.mean(here, axis=0, dtype=np.float64)
 
+    def ambient_occlusion(self, points: SurfacePoints, radius: float, batch: int, spp: int) -> np.ndarray:
+        """(n, H, W): one batch of the share of directions that are open up to a radius, metres, at stacked points."""
+        from lightmeter.groundtruth.ambient_occlusion import ambient_occlusion
+
+        seed = self.seed + FAMILIES["ambient occlusion"]
+        return ambient_occlusion(self._world, points, radius, spp=spp, seed=seed, batch=batch)
+
     def path_traced(self, spp: int, number: int) -> np.ndarray:
         """(H, W, 3): an image by the reference's path tracer, independent of the reference and of other numbers."""
         from lightmeter.groundtruth.reference import render_batch
@@ -252,7 +259,13 @@ class Truth:
         return self._keys[points]
 
 
-FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000, "emission": 0x40000}
+FAMILIES = {
+    "frame": 0x10000,
+    "exact material": 0x20000,
+    "closure": 0x30000,
+    "emission": 0x40000,
+    "ambient occlusion": 0x50000,
+}
 """What is added to the seed for each set of points."""
 
 BEYOND_BATCHES = 1 << 30

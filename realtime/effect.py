@@ -108,6 +108,7 @@ class Effect:
         citation: author, year, title, equation.
         knobs: its settings.
         rank: among effects for the same term the lowest is taken by default.
+        on_request: taken only where it is asked for by name.
         channels: the G-buffer channels it reads, see `gbuffer.CHANNELS`.
         reads_scattered: whether it reads the lit frame so far (`scattered_light` in its shader), and so is drawn after
             direct light and the environment.
@@ -130,6 +131,7 @@ class Effect:
     citation: str
     knobs: tuple[Knob, ...] = ()
     rank: int = 0
+    on_request: bool = False
     channels: tuple[str, ...] = ()
     reads_scattered: bool = False
     verdicts: tuple[str, ...] = ()

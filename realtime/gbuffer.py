@@ -129,6 +129,12 @@ class GBuffer:
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
 
+    @property
+    def view_projection(self) -> np.ndarray:
+        """(4, 4) float64: world to clip space, at the sub-pixel offset of what the G-buffer holds."""
+        camera = self._scene.camera
+        return projection_matrix(camera, self._size, self.offset) @ view_matrix(camera)
+
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
         names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._attachments if a.channels}
@@ -136,14 +142,13 @@ class GBuffer:
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
-        camera = self._scene.camera
         self.offset = offset
         self._framebuffer.use()
         self._framebuffer.clear()
         if self._cleared is not None:
             self._cleared.clear()
             self._framebuffer.use()
-        self._draw_shapes(projection_matrix(camera, self._size, offset) @ view_matrix(camera), frozenset())
+        self._draw_shapes(self.view_projection, frozenset())
         if self._background is not None:
             self._background.draw(offset)
 

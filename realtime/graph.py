@@ -140,6 +140,9 @@ def _candidates(scene: Scene, known: Mapping[str, Effect], choice: Choice, missi
             continue
         if name in choice.without or needless:
             left_out.append(LeftOut(name, "left out as asked" if name in choice.without else needless))
+        elif effect.on_request and name not in (*choice.use, *choice.only):
+            left_out.append(LeftOut(name, f"takes part where it is asked for: --use {name}"))
+            continue
         if not needless:
             kept.append(effect)
     kept.sort(key=lambda e: (e.name not in choice.use, e.rank, e.name))

@@ -93,7 +93,7 @@ class Renderer:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
-        self._held: dict[str, int] = {}  # effect to the light whose map its pass for captures holds
+        self._held: dict[str, int | None] = {}  # effect to the light whose map its pass for captures holds
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:

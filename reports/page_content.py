@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.ambient_content import ambient_content
 from lightmeter.reports.attribution_content import attribution_content
 from lightmeter.reports.candidates_content import candidates_content
 from lightmeter.reports.cells import measured, named, share_of_width, terms_with_meaning, timed
@@ -35,6 +36,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "objects": object_content(results.objects),
         "shadows": shadow_content(results.shadows),
         "rays": ray_content(results.rays),
+        "ambient": ambient_content(results.ambient),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),

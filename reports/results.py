@@ -193,6 +193,23 @@ class RayError:
 
 
 @dataclass(frozen=True)
+class AmbientError:
+    """How far an effect for ambient visibility is from one of the truths that it may be held against.
+
+    Attributes:
+        effect: which gives the visibility.
+        truth: "term": occluded over unoccluded radiance; "occlusion": the open share of directions.
+        radius: how far away a direction may be blocked, metres; None: anywhere.
+        metrics: in radiance, weighted with the exact unoccluded environment.
+    """
+
+    effect: str
+    truth: str
+    radius: float | None
+    metrics: Metrics
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """Something the scene or the plan holds and the comparison does not, and why."""
 
@@ -325,6 +342,7 @@ class Results:
     objects: tuple[ObjectError, ...] = ()
     shadows: tuple[LightShadow, ...] = ()
     rays: tuple[RayError, ...] = ()
+    ambient: tuple[AmbientError, ...] = ()
     candidates: tuple[Candidate, ...] = ()
     failed_candidates: tuple[FailedCandidate, ...] = ()
     schema: int = SCHEMA

@@ -22,6 +22,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.shadow_error import ShadowPart
 from lightmeter.reports.results import (
     SCHEMA,
+    AmbientError,
     Attribution,
     Candidate,
     Closure,
@@ -107,6 +108,7 @@ def from_json(text: str) -> Results:
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
         rays=tuple(_ray_error(item) for item in top.get("rays", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
+        ambient=tuple(_ambient_error(item) for item in top.get("ambient", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
             FailedCandidate(item.get("name").text(), item.get("why").text())
@@ -318,6 +320,15 @@ def _ray_error(node: _Node) -> RayError:
             fate: RayPart(part.get("pixels").integer(), _measurement(part.get("share")))
             for fate, part in node.get("parts").nodes().items()
         },
+    )
+
+
+def _ambient_error(node: _Node) -> AmbientError:
+    return AmbientError(
+        effect=node.get("effect").text(),
+        truth=node.get("truth").text(),
+        radius=node.get("radius").maybe(_Node.number),
+        metrics=_metrics(node.get("metrics")),
     )
 
 

@@ -9,6 +9,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.ambient_content import ambient_line
 from lightmeter.reports.candidates_table import side_by_side
 from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.fix_first import fix_first
@@ -54,6 +55,8 @@ def comparison(results: Results) -> Group:
         parts.append(_object(worst[0]))
     parts += [reason(*shadow_line(shadow)) for shadow in results.shadows]
     parts += [reason(*ray_line(rays)) for rays in results.rays]
+    if results.ambient:
+        parts.append(reason(*ambient_line(results.ambient)))
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))

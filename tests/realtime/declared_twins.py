@@ -3,6 +3,7 @@
 from importlib import import_module
 from pathlib import Path
 
+from lightmeter.realtime.ambient.twin import TWINS as AMBIENT_TWINS
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.environments.twin import TWINS as ENVIRONMENT_TWINS
 from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
@@ -14,7 +15,9 @@ from lightmeter.realtime.twin import Twin
 
 def declared_twins() -> list[tuple[Path, Twin]]:
     """(folder, twin) of every declaration."""
-    found = [(SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS, *ENVIRONMENT_TWINS, *REFLECTION_TWINS)]
+    found = [
+        (SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS, *AMBIENT_TWINS, *ENVIRONMENT_TWINS, *REFLECTION_TWINS)
+    ]
     for effect in effects().values():
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")

@@ -41,6 +41,7 @@ NOT_TWINNED = {
     "dynamic_cube_map.glsl": {"seen_along"},
     "screen_space_reflections.glsl": {"unmet", "seen_along"},
     "marching.glsl": {"ray_depth", "unmet_verdict"},  # take a structure: test_reflections.py
+    "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
 """Plumbing; what reads a texture, or calls what does, is told by its text."""

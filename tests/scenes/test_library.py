@@ -15,10 +15,13 @@ from lightmeter.scenes.toml import schema
 
 NAMES = (
     "area-lights",
+    "atrium",
     "avenue",
     "control",
     "cornell-box",
+    "corner",
     "grid-sun",
+    "lattice",
     "layers",
     "metal-rough-grid",
     "mirrors",
