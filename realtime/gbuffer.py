@@ -72,6 +72,7 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
 class Draw:
     """One shape, ready to be drawn into the G-buffer."""
 
+    shape: int
     program: Any
     vertices: Any
     count: int
@@ -84,7 +85,7 @@ class GBuffer:
 
     Args:
         channels: those that are read; the rest is left out.
-        radiance: the texture that emission and the environment behind everything go to.
+        radiance: the texture that emission and the environment behind everything go to; None: they are left out.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
     """
 
@@ -104,7 +105,7 @@ class GBuffer:
         attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
         self.textures = {a.name: device.target(size, a.components) for a in attachments}
         self.radiance = radiance
-        emits = bool(scene.area_lights)
+        emits = radiance is not None and bool(scene.area_lights)
         if emits:
             attachments.append(EMISSION)
             self.textures["radiance"] = radiance
@@ -116,8 +117,8 @@ class GBuffer:
         self.depth = device.gl.depth_renderbuffer(size)
         self._framebuffer = device.framebuffer(self.textures.values(), self.depth)
         # Where nothing emits, no shape writes radiance: it is cleared by itself.
-        self._cleared = None if emits else device.framebuffer([radiance])
-        surrounded = scene.environment is not None and scene.environment.shines
+        self._cleared = None if emits or radiance is None else device.framebuffer([radiance])
+        surrounded = radiance is not None and scene.environment is not None and scene.environment.shines
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
@@ -136,15 +137,33 @@ class GBuffer:
             self._cleared.clear()
             self._framebuffer.use()
         gl.enable_only(gl.DEPTH_TEST)
-        matrix = projection_matrix(camera, self._size, offset) @ view_matrix(camera)
-        for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix})
-        for draw in self._draws:
-            draw.uniforms.write()
-            bind(draw.program, draw.textures)
-            self._device.draw(draw.vertices, draw.count)
+        self._draw_shapes(projection_matrix(camera, self._size, offset) @ view_matrix(camera))
         if self._background is not None:
             self._background.draw(offset)
+
+    def draw_tiles(self, matrices: np.ndarray, columns: int, side: int, excluded: int | None = None) -> None:
+        """Render from elsewhere, without what lies behind: (n, 4, 4) world to clip space, each to a square tile.
+
+        Args:
+            columns, side: tiles in a row, from the lower left; pixels along a tile's side.
+            excluded: a shape that is left out.
+        """
+        self._framebuffer.viewport = (0, 0, *self._size)
+        self._framebuffer.use()
+        self._framebuffer.clear()
+        self._device.gl.enable_only(self._device.gl.DEPTH_TEST)
+        for tile, matrix in enumerate(matrices):
+            self._framebuffer.viewport = (tile % columns * side, tile // columns * side, side, side)
+            self._draw_shapes(matrix, excluded)
+
+    def _draw_shapes(self, view_projection: np.ndarray, excluded: int | None = None) -> None:
+        for program in self._programs.values():
+            set_uniforms(program, {"view_projection": view_projection})
+        for draw in self._draws:
+            if draw.shape != excluded:
+                draw.uniforms.write()
+                bind(draw.program, draw.textures)
+                self._device.draw(draw.vertices, draw.count)
 
     def load(self, points: SurfacePoints) -> None:
         """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
@@ -174,6 +193,7 @@ class GBuffer:
         values = material_uniforms(batch.material) | {"shape": batch.shape}
         textures = {f"{slot}_texture": texture for slot, texture in batch.material.textures.items()}
         return Draw(
+            batch.shape,
             program,
             batch.vertices(self._device, program),
             batch.count,

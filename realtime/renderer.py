@@ -89,7 +89,7 @@ class Renderer:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
-        self._held: dict[str, int] = {}  # effect to the light whose map its pass for captures holds
+        self._held: dict[str, int | None] = {}  # effect to the light whose map its pass for captures holds
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
@@ -121,7 +121,7 @@ class Renderer:
         light = step.light
         if light is not None and shading.part(step) is None:
             return []
-        if shading.has_map and light is not None:
+        if shading.has_map:
             actions.append((f"{name} · map", step.effect, lambda: own.draw(light)))
         term = step.writes[0]
         target = self._buffers.get(term, self._radiance_buffer)
@@ -229,8 +229,8 @@ class Renderer:
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
         target.clear(neutral, neutral, neutral)
-        if shading.has_map and step.light is not None and self._held.get(step.effect) != step.light:
-            # A light's map does not depend on where in the pixel the scene is sampled.
+        # A light's map does not depend on where in the pixel the scene is sampled; the frame's own does.
+        if shading.has_map and (step.light is None or self._held.get(step.effect) != step.light):
             shading.own.draw(step.light)
             self._held[step.effect] = step.light
         shading.draw(step, target, {})
