@@ -1,11 +1,12 @@
 """The G-buffer: one draw per shape into the attachments that somebody reads."""
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.model import Material, Scene, Texture, Vector
+from lightmeter.scenes.model import Camera, Material, Scene, Texture, Vector
 from lightmeter.scenes.points import SurfacePoints
 
 from .background import Background
@@ -72,7 +73,6 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
 class Draw:
     """One shape, ready to be drawn into the G-buffer."""
 
-    shape: int
     program: Any
     vertices: Any
     count: int
@@ -87,6 +87,10 @@ class GBuffer:
         channels: those that are read; the rest is left out.
         radiance: the texture that emission and the environment behind everything go to; None: they are left out.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
+
+    Attributes:
+        shines: whether anything goes to `radiance`.
+        offset: where in the pixels what it holds was sampled, pixels right and down from their centres.
     """
 
     def __init__(
@@ -120,6 +124,8 @@ class GBuffer:
         self._cleared = None if emits or radiance is None else device.framebuffer([radiance])
         surrounded = radiance is not None and scene.environment is not None and scene.environment.shines
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
+        self.shines = emits or surrounded
+        self.offset = 0.0, 0.0
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
 
@@ -130,43 +136,48 @@ class GBuffer:
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
-        gl, camera = self._device.gl, self._scene.camera
+        camera = self._scene.camera
+        self.offset = offset
         self._framebuffer.use()
         self._framebuffer.clear()
         if self._cleared is not None:
             self._cleared.clear()
             self._framebuffer.use()
-        gl.enable_only(gl.DEPTH_TEST)
-        self._draw_shapes(projection_matrix(camera, self._size, offset) @ view_matrix(camera))
+        self._draw_shapes(projection_matrix(camera, self._size, offset) @ view_matrix(camera), frozenset())
         if self._background is not None:
             self._background.draw(offset)
 
-    def draw_tiles(self, matrices: np.ndarray, columns: int, side: int, excluded: int | None = None) -> None:
-        """Render from elsewhere, without what lies behind: (n, 4, 4) world to clip space, each to a square tile.
+    def draw_tiles(self, matrices: Sequence[np.ndarray], columns: int, excluded: Collection[int] = ()) -> None:
+        """Render several views into square or other equal tiles, row by row from the bottom left.
 
         Args:
-            columns, side: tiles in a row, from the lower left; pixels along a tile's side.
-            excluded: a shape that is left out.
+            matrices: (4, 4) each, world to clip space.
+            columns: tiles beside each other.
+            excluded: shapes that are not drawn.
         """
+        rows = -(-len(matrices) // columns)
+        width, height = self._size[0] // columns, self._size[1] // rows
         self._framebuffer.viewport = (0, 0, *self._size)
         self._framebuffer.use()
         self._framebuffer.clear()
-        self._device.gl.enable_only(self._device.gl.DEPTH_TEST)
         for tile, matrix in enumerate(matrices):
-            self._framebuffer.viewport = (tile % columns * side, tile // columns * side, side, side)
+            self._framebuffer.viewport = (tile % columns * width, tile // columns * height, width, height)
             self._draw_shapes(matrix, excluded)
 
-    def _draw_shapes(self, view_projection: np.ndarray, excluded: int | None = None) -> None:
+    def _draw_shapes(self, matrix: np.ndarray, excluded: Collection[int]) -> None:
+        self._device.gl.enable_only(self._device.gl.DEPTH_TEST)
         for program in self._programs.values():
-            set_uniforms(program, {"view_projection": view_projection})
-        for draw in self._draws:
-            if draw.shape != excluded:
-                draw.uniforms.write()
-                bind(draw.program, draw.textures)
-                self._device.draw(draw.vertices, draw.count)
+            set_uniforms(program, {"view_projection": matrix})
+        for batch, draw in zip(self._geometry.batches, self._draws, strict=True):
+            if batch.shape in excluded:
+                continue
+            draw.uniforms.write()
+            bind(draw.program, draw.textures)
+            self._device.draw(draw.vertices, draw.count)
 
     def load(self, points: SurfacePoints) -> None:
         """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
+        self.offset = _sampled_at(points, self._scene.camera, self._size)
         for attachment in self._attachments:
             if not attachment.channels:
                 continue
@@ -193,7 +204,6 @@ class GBuffer:
         values = material_uniforms(batch.material) | {"shape": batch.shape}
         textures = {f"{slot}_texture": texture for slot, texture in batch.material.textures.items()}
         return Draw(
-            batch.shape,
             program,
             batch.vertices(self._device, program),
             batch.count,
@@ -224,6 +234,17 @@ class GBuffer:
 
     def _writes(self) -> str:
         return "\n".join(f"    out_{a.name} = {a.expression};" for a in self._attachments)
+
+
+def _sampled_at(points: SurfacePoints, camera: Camera, size: tuple[int, int]) -> tuple[float, float]:
+    """The sub-pixel offset that points were drawn with: where they project to, less their pixels' centres."""
+    rows, columns = np.nonzero(points.hit)
+    if len(rows) == 0:
+        return 0.0, 0.0
+    seen = np.column_stack([points.position[rows, columns].astype(np.float64), np.ones(len(rows))])
+    x, y, _, w = projection_matrix(camera, size) @ view_matrix(camera) @ seen.T
+    right, down = (x / w + 1) / 2 * size[0] - columns - 0.5, (1 - y / w) / 2 * size[1] - rows - 0.5
+    return float(np.median(right)), float(np.median(down))
 
 
 def usable_slots(batch: Batch) -> tuple[tuple[str, int, bool, bool], ...]:

@@ -80,6 +80,11 @@ class Plan:
         drawn = {term for step in self.steps if step.effect == effect for term in step.writes}
         return tuple(term for term in declared if term in drawn or term not in DRAWN_TERMS)
 
+    @property
+    def reads_scattered(self) -> bool:
+        """Whether any effect reads the lit frame so far."""
+        return any("scattered" in step.reads for step in self.steps)
+
     def why_absent(self, effect: str) -> str:
         """Why an effect that exists takes no part in this frame."""
         return next((item.why for item in self.left_out if item.what == effect), "nothing in this frame needs it")
@@ -183,7 +188,7 @@ def _steps(
         if environment:
             steps.append(Step(environment.name, ("environment",), factor))
         if indirect:
-            steps.append(Step(indirect.name, ("indirect",)))
+            steps.append(Step(indirect.name, ("indirect",), ("scattered",) if indirect.reads_scattered else ()))
     for term in ("tone", "encode"):
         if effect := first(term):
             steps.append(Step(effect.name, (term,), ("radiance" if term == "tone" else "tone",)))

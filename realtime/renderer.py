@@ -1,6 +1,5 @@
 """Executes a plan: the frame as it is shown, its time, and the terms one by one for the measurement."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,8 +15,10 @@ from .display import DISPLAY_TERMS, DisplayPass
 from .gbuffer import CHANNELS, GBuffer
 from .geometry import Geometry
 from .graph import Plan, Step
+from .lighting import Action, Lighting
 from .projection import viewer
-from .shading import VISIBILITIES, ShadingPass
+from .scattered_light import FrameScatteredLight, ScatteredLight
+from .shading import ShadingPass
 from .stage import Stage
 from .timing import Clock, Recording, Times, summarise
 
@@ -68,12 +69,13 @@ class Renderer:
         self._radiance_buffer = device.framebuffer([self._radiance])
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance)
         self.baking = Baking(device)
-        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size, self.baking)
+        self._scattered = (
+            FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
+        )
+        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size, self.baking, plan, self._scattered)
         self._passes = self._make_passes(self._stage, separate=False)
-        self._visibility = {
-            term: device.target(size) for term in VISIBILITIES if any(term in step.writes for step in plan.steps)
-        }
-        self._buffers = {term: device.framebuffer([texture]) for term, texture in self._visibility.items()}
+        scene_steps = [step for step in plan.steps if step.writes[0] not in DISPLAY_TERMS]
+        self._lighting = Lighting(self._stage, scene_steps, self._radiance_buffer, self._passes)
         self._display = {
             step.writes[0]: (DisplayPass(device, *plan.effects[step.effect], step.writes[0]), step.effect)
             for step in plan.steps
@@ -89,7 +91,7 @@ class Renderer:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
-        self._held: dict[str, int | None] = {}  # effect to the light whose map its pass for captures holds
+        self._held: dict[str, int] = {}  # effect to the light whose map its pass for captures holds
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
@@ -100,36 +102,17 @@ class Renderer:
         texture = self.device.target(self.size)
         return self.device.framebuffer([texture]), texture, Averager(self.device)
 
-    def _scene_actions(self, offset: tuple[float, float]) -> list[tuple[str, str, Callable[[], None]]]:
+    def _scene_actions(self, offset: tuple[float, float]) -> list[Action]:
         """(pass, effect, draw) of one sample of the frame, up to its radiance."""
+        return [("gbuffer", "", lambda: self._draw_gbuffer(offset)), *self._lighting.actions()]
 
-        actions: list[tuple[str, str, Callable[[], None]]] = [
-            ("gbuffer", "", lambda: self._stage.gbuffer.draw(offset)),
-        ]
-        for step in self.plan.steps:
-            if step.writes[0] not in DISPLAY_TERMS:
-                actions += self._step_actions(step)
-        return actions
+    def _draw_gbuffer(self, offset: tuple[float, float]) -> None:
+        self._stage.gbuffer.draw(offset)
+        if self._scattered is not None:
+            self._scattered.remember_emission()
 
-    def _step_actions(self, step: Step) -> list[tuple[str, str, Callable[[], None]]]:
-        shading = self._passes[step.effect]
-        name = step.effect
-        if step.light is not None:
-            name += f" · {self.plan.scene.all_lights[step.light].name}"
-        actions = []
-        own = shading.own
-        light = step.light
-        if light is not None and shading.part(step) is None:
-            return []
-        if shading.has_map:
-            actions.append((f"{name} · map", step.effect, lambda: own.draw(light)))
-        term = step.writes[0]
-        target = self._buffers.get(term, self._radiance_buffer)
-        actions.append((name, step.effect, lambda: shading.draw(step, target, self._visibility)))
-        return actions
-
-    def _display_actions(self) -> list[tuple[str, str, Callable[[], None]]]:
-        actions = []
+    def _display_actions(self) -> list[Action]:
+        actions: list[Action] = []
         image = self._sum[1] if self._sum else self._radiance
         scale = 2.0**self.plan.scene.camera.exposure
         for term, (display, effect) in self._display.items():
@@ -187,23 +170,26 @@ class Renderer:
 
     def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
         """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
-        gbuffer, _ = self._capture_stage
+        gbuffer = self._capture_stage[0].gbuffer
         gbuffer.draw(offset)
         points = self._points(gbuffer)
         return self._shaded(points) if terms else Capture(points, {}, {}, {})
 
     def shade(self, points: SurfacePoints) -> Capture:
         """Every effect's buffer at given points, such as a capture's with other parameters."""
-        self._capture_stage[0].load(points)
+        self._capture_stage[0].gbuffer.load(points)
         return self._shaded(points)
 
     def _shaded(self, points: SurfacePoints) -> Capture:
         """Every effect's buffer at the points that the G-buffer holds."""
-        _, passes = self._capture_stage
+        stage, passes = self._capture_stage
         direct, visibility, frame = {}, {}, {}
         for step in self.plan.steps:
             if step.writes[0] in DISPLAY_TERMS:
                 continue
+            if "scattered" in step.reads:
+                assert stage.scattered is not None
+                stage.scattered.hold(_scattered(direct, visibility, frame, points))
             values = self._separate(passes[step.effect], step)
             if step.light is None:
                 frame |= values
@@ -219,8 +205,11 @@ class Renderer:
             gbuffer = GBuffer(
                 self.device, self._geometry, self.plan.scene, self.size, channels, radiance, identity=True
             )
-            stage = Stage(self.device, self.plan.scene, self._geometry, gbuffer, self.size, self.baking)
-            self._captured = gbuffer, self._make_passes(stage, separate=True)
+            scattered = ScatteredLight(self.device, self.size) if self.plan.reads_scattered else None
+            stage = Stage(
+                self.device, self.plan.scene, self._geometry, gbuffer, self.size, self.baking, self.plan, scattered
+            )
+            self._captured = stage, self._make_passes(stage, separate=True)
         return self._captured
 
     def _separate(self, shading: ShadingPass, step: Step) -> dict[str, np.ndarray]:
@@ -229,10 +218,11 @@ class Renderer:
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
         target.clear(neutral, neutral, neutral)
-        # A light's map does not depend on where in the pixel the scene is sampled; the frame's own does.
         if shading.has_map and (step.light is None or self._held.get(step.effect) != step.light):
+            # A light's map does not depend on where in the pixel the scene is sampled; what the frame has may.
             shading.own.draw(step.light)
-            self._held[step.effect] = step.light
+            if step.light is not None:
+                self._held[step.effect] = step.light
         shading.draw(step, target, {})
         return {
             term: self.device.read(texture)[..., :3].copy() for term, texture in zip(step.writes, textures, strict=True)
@@ -252,3 +242,11 @@ class Renderer:
             shape=np.where(hit, identity[..., 0], -1).astype(np.int32),
             triangle=np.where(hit, identity[..., 1] + 4096 * identity[..., 2], -1).astype(np.int32),
         )
+
+
+def _scattered(direct, visibility, frame, points: SurfacePoints) -> np.ndarray:
+    """(H, W, 3): the lit frame so far, as the effects themselves have it: direct light and the environment's."""
+    total = np.zeros(points.position.shape, np.float32)
+    for light, radiance in direct.items():
+        total += radiance * visibility.get(light, 1.0)
+    return total + frame.get("environment", 0.0) * frame.get("environment_visibility", 1.0)

@@ -8,7 +8,6 @@ from lightmeter.scenes.terms import TERMS
 from .effect import Effect, Knobs
 from .graph import FACTORS, Step
 from .light_bounds import Rectangle, reached
-from .projection import viewer
 from .shaders import Source, source
 from .stage import Stage
 from .uniforms import Uniforms, bind
@@ -39,7 +38,7 @@ class ShadingPass:
 
     @property
     def has_map(self) -> bool:
-        """Whether the effect draws something beforehand for each light."""
+        """Whether the effect draws something beforehand, for each light or for the frame."""
         return hasattr(self.own, "draw")
 
     def part(self, step: Step) -> Rectangle | None:
@@ -48,7 +47,9 @@ class ShadingPass:
             scene, size = self._stage.scene, self._stage.size
             whole: Rectangle = 0, 0, *size
             self._parts[step] = (
-                whole if step.light is None else reached(scene.camera, size, scene.all_lights[step.light])
+                whole
+                if step.light is None or self._stage.elsewhere is not None
+                else reached(scene.camera, size, scene.all_lights[step.light])
             )
         return self._parts[step]
 
@@ -75,6 +76,8 @@ class ShadingPass:
         self._uniforms[step].write()
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
+        if self._stage.scattered is not None:
+            textures["scattered_light"] = self._stage.scattered.texture
         textures |= self._tables
         if self.own is not None:
             textures |= self.own.textures(step.light)
@@ -89,7 +92,7 @@ class ShadingPass:
         values = dict(self._knobs) | self._effect.uniforms(scene, self._knobs, light)
         if self.own is not None:
             values |= self.own.uniforms(step.light)
-        return values | {"viewer": viewer(scene.camera)}
+        return values | {"viewer": self._stage.viewer}
 
     def _program(self, step: Step):
         own = dict(self._effect.defines(self._knobs))

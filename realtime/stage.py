@@ -2,12 +2,17 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from lightmeter.scenes.model import Scene
 
 from .baking import Baking
 from .device import Device
 from .gbuffer import GBuffer
 from .geometry import Geometry
+from .graph import Plan
+from .projection import viewer
+from .scattered_light import ScatteredLight
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,6 +22,9 @@ class Stage:
     Attributes:
         size: width and height in pixels.
         baking: what effects bake, shared by all stages of a renderer.
+        plan: the whole frame's.
+        scattered: the lit frame so far; None where no effect reads it.
+        elsewhere: (4,) the viewer, as `projection.viewer` has it, where the G-buffer is not seen from the camera.
     """
 
     device: Device
@@ -25,3 +33,11 @@ class Stage:
     gbuffer: GBuffer
     size: tuple[int, int]
     baking: Baking
+    plan: Plan
+    scattered: ScatteredLight | None = None
+    elsewhere: np.ndarray | None = None
+
+    @property
+    def viewer(self) -> np.ndarray:
+        """(4,) what gives shaders the direction to the viewer."""
+        return viewer(self.scene.camera) if self.elsewhere is None else self.elsewhere

@@ -40,8 +40,14 @@ def _bytes(member: Any, value: Any) -> bytes:
 
 
 def bind(program, textures: dict[str, Any]) -> None:
-    """Bind those textures that the program samples."""
-    used = [(name, texture) for name, texture in textures.items() if name in program]
-    for unit, (name, texture) in enumerate(used):
-        texture.use(unit)
-        program[name].value = unit
+    """Bind those textures that the program samples; a list goes to an array of samplers."""
+    unit = 0
+    for name, bound in textures.items():
+        if name not in program:
+            continue
+        several = bound if isinstance(bound, list) else [bound]
+        for place, texture in enumerate(several, unit):
+            texture.use(place)
+        units = list(range(unit, unit + len(several)))
+        program[name].value = units if len(units) > 1 else unit
+        unit += len(units)

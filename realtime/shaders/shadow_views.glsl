@@ -1,18 +1,11 @@
 // The views of a light's shadow maps, and where on them a surface point lies.
+#include "cube_face.glsl"
 uniform mat4 shadow_matrices[VIEWS];  // world to clip space
 uniform float shadow_texels[VIEWS];   // metres per texel; times the distance for a light with a position
 uniform vec4 shadow_light;            // position, w = 1; or the direction towards it, w = 0
 uniform float bias;
 uniform float slope_bias;
 uniform float normal_offset;
-
-// The face of a cube that a direction leaves through: +x −x +y −y +z −z.
-int cube_face(vec3 d) {
-    vec3 a = abs(d);
-    if (a.x >= a.y && a.x >= a.z) return d.x >= 0.0 ? 0 : 1;
-    if (a.y >= a.z) return d.y >= 0.0 ? 2 : 3;
-    return d.z >= 0.0 ? 4 : 5;
-}
 
 // How far a point moves towards the light so that its own surface does not shadow it. One texel further along the
 // map a plane's depth changes by texel·√(1 − (n·a)²)·|l·a|/(n·l), with `a` the map's axis; where the light is straight along

@@ -96,7 +96,7 @@ def views(rng: np.random.Generator, n: int) -> np.ndarray:
 
 TWINS = (
     Twin(
-        "shadow_views.glsl",
+        "cube_face.glsl",
         "cube_face",
         "int",
         (

@@ -65,8 +65,8 @@ def shadow_views(scene: Scene, light: Light, resolution: int, border: int) -> Sh
     if isinstance(light, SpotLight) and light.outer < WIDEST_SPOT:
         return _cone(scene, light, used, border)
     if isinstance(light, AreaLight):
-        return _cube(scene, emitter(scene, light).centre, used, border, light.shape)
-    return _cube(scene, np.array(light.position, dtype=np.float64), used, border, None)
+        return cube_views(scene, emitter(scene, light).centre, used, border, light.shape)
+    return cube_views(scene, np.array(light.position, dtype=np.float64), used, border)
 
 
 def corners_of(scene: Scene) -> np.ndarray:
@@ -119,7 +119,10 @@ def _cone(scene: Scene, light: SpotLight, used: int, border: int) -> ShadowViews
     return ShadowViews(matrix[None], np.append(position, 1.0), np.array([2 * tangent / used]), depths)
 
 
-def _cube(scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None) -> ShadowViews:
+def cube_views(
+    scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None = None
+) -> ShadowViews:
+    """The six faces of a cube about a position; arguments as in `shadow_views`, `excluded` as in `ShadowViews`."""
     depths = _distances(scene, position)
     projection = _perspective(1 + 2 * border / used, *_clipping(depths))
     faces = [projection @ _look(position, np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES]

@@ -1,8 +1,8 @@
 """Virtual lights inside a sphere, where every bounce has a closed form; and what stands between them and a point.
 
-Inside a unit sphere cos θ·cos θ'/d² is 1/4 between any two points. So a light of flux Φ inside it, of whatever kind, gives
-a radiance of ρ²·Φ/(4π²) after one bounce, and ρ times as much more after each further one. Every virtual light gives
-the same, wherever it is: the sum is exact for any number of them.
+Inside a unit sphere cos θ·cos θ'/d² is 1/4 between any two points. So a light of flux Φ inside it, of whatever kind,
+gives a radiance of ρ²·Φ/(4π²) after one bounce, and ρ times as much more after each further one. Every virtual light
+gives the same, wherever it is: the sum is exact for any number of them.
 """
 
 import math
@@ -66,7 +66,7 @@ def test_in_a_sphere_one_bounce_is_its_closed_form(device, case):
     """Mean and spread: points near a virtual light see its facet at an angle that the sphere does not have."""
     scene, flux = CASES[case]
     expected = 0.25 * flux / (4 * math.pi**2)
-    # A spot's falloff is summed over 64 cosines by midpoints; the rim's ramp is one part in 64 of a slope that ends there.
+    # A spot's falloff is summed over 64 cosines by midpoints; where the ramp ends its slope changes.
     slack = 4 * FLATNESS + (0.01 if "spot" in case or case == "two lights" else 0.0)
     found = indirect(device, scene, lights=64)
     assert np.median(found) == pytest.approx(expected, rel=slack)

@@ -41,8 +41,8 @@ EFFECT = Effect(
     terms=("indirect",),
     summary="Reflective shadow maps say where rays of the lights end; each end shines on as a small Lambert patch.",
     citation="Keller 1997, Instant Radiosity; Dachsbacher & Stamminger 2005, Reflective Shadow Maps; Ritschel et al. "
-    "2008, Imperfect Shadow Maps (points over the scene, a low map for each light); Segovia et al. 2006, Non-interleaved "
-    "Deferred Shading of Interleaved Sample Patterns",
+    "2008, Imperfect Shadow Maps (points over the scene, a low map for each light); Segovia et al. 2006, "
+    "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
     knobs=(
         Knob("lights", 128, "Virtual lights for each bounce.", low=1, high=4096, sweep=(16, 64, 256, 1024)),
         Knob(

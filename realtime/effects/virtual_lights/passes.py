@@ -9,7 +9,6 @@ import numpy as np
 from ...effect import EffectError, Knobs
 from ...fullscreen import FullscreenPass
 from ...gbuffer import GBuffer
-from ...projection import viewer
 from ...shaders import source
 from ...stage import Stage
 from ...uniforms import set_uniforms
@@ -96,28 +95,29 @@ class Passes:
 
     def _pass(self, name: str, surface: dict[str, object] | None = None) -> FullscreenPass:
         fragment = source(name, self._defines | (surface or {}), self._folder)
-        values = self._values | {"viewer": viewer(self._stage.scene.camera)}
+        values = self._values | {"viewer": self._stage.viewer}
         return FullscreenPass(self._stage.device, fragment, values)
 
     def _make_place(self) -> FullscreenPass:
-        """The pass that places virtual lights, the map that it reads, and the rays it reads it at."""
+        """The pass that places virtual lights, the maps that it reads, and the rays it reads them at."""
         stage = self._stage
-        columns, rows = np.max([rays.views.tiles for rays in self._rays], axis=0)
-        size = int(columns) * self._resolution, int(rows) * self._resolution
-        self._map = GBuffer(stage.device, stage.geometry, stage.scene, size, CHANNELS, None)
+        self._maps = {}  # as many tiles as a light has views
+        for columns, rows in {rays.views.tiles for rays in self._rays}:
+            size = columns * self._resolution, rows * self._resolution
+            self._maps[columns, rows] = GBuffer(stage.device, stage.geometry, stage.scene, size, CHANNELS, None)
         table = np.zeros((2, self._first, 4))
         table[0, :, :2] = np.concatenate([rays.texels for rays in self._rays])
         table[1, :, :3] = np.concatenate([rays.powers for rays in self._rays])
         self._ray_table = stage.device.table(table)
-        return self._pass("place.frag", self._map.defines())
+        return self._pass("place.frag", next(iter(self._maps.values())).defines())
 
     def _draw_places(self) -> None:
-        textures = {f"gbuffer_{name}": texture for name, texture in self._map.textures.items()}
-        textures["rays"] = self._ray_table
         start = 0
         for rays in self._rays:
-            views = rays.views
-            self._map.draw_tiles(views.matrices, views.tiles[0], self._resolution, views.excluded)
+            views, seen = rays.views, self._maps[rays.views.tiles]
+            seen.draw_tiles(views.matrices, views.tiles[0], () if views.excluded is None else (views.excluded,))
+            textures = {f"gbuffer_{name}": texture for name, texture in seen.textures.items()}
+            textures["rays"] = self._ray_table
             values = {"viewer": views.position, "inverse_range_square": rays.inverse_range_square}
             set_uniforms(self._place.program, values)
             self._place.draw(self._placed.framebuffer, textures, (start, 0, len(rays.texels), 1))

@@ -12,7 +12,7 @@ GOLDEN = 0.6180339887498949
 
 
 def surface_points(scene: Scene, count: int) -> np.ndarray:
-    """(3, n, 3) float64, n about `count`: positions, normals, and diffuse reflectance times the area a point stands for.
+    """(3, n, 3) float64, n about `count`: positions, normals, diffuse reflectance times the area a point stands for.
 
     Evenly by area; each shape has at least one. What has two sides has every other point on its back.
     """
