@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter.attribution import Shares, attribute
+from lightmeter.bounce_errors import bounce_errors
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import Gathered, gather
 from lightmeter.candidates.side_by_side import SideBySide, compare_candidates
@@ -182,6 +183,7 @@ def compare(
             scene, renderer.capture(terms=False).points.shape, frame.radiance, reference.batches, display
         ),
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
+        bounces=() if bad.total() else bounce_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

@@ -6,6 +6,7 @@ from typing import Any
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.attribution_content import attribution_content
+from lightmeter.reports.bounce_content import bounce_content
 from lightmeter.reports.candidates_content import candidates_content
 from lightmeter.reports.cells import measured, named, share_of_width, terms_with_meaning, timed
 from lightmeter.reports.closure import closure_statement
@@ -33,6 +34,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "attribution": attribution_content(results, shown),
         "objects": object_content(results.objects),
         "shadows": shadow_content(results.shadows),
+        "bounces": bounce_content(results.bounces),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),

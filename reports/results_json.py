@@ -23,6 +23,7 @@ from lightmeter.metrics.shadow_error import ShadowPart
 from lightmeter.reports.results import (
     SCHEMA,
     Attribution,
+    BounceShare,
     Candidate,
     Closure,
     Effect,
@@ -104,6 +105,7 @@ def from_json(text: str) -> Results:
         display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
+        bounces=tuple(_bounce_share(item) for item in top.get("bounces", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
             FailedCandidate(item.get("name").text(), item.get("why").text())
@@ -305,6 +307,11 @@ def _light_shadow(node: _Node) -> LightShadow:
             for kind, places in node.get("parts").nodes().items()
         },
     )
+
+
+def _bounce_share(node: _Node) -> BounceShare:
+    numbers = {name: _measurement(node.get(name)) for name in ("share", "energy", "leaked", "missing", "rmse")}
+    return BounceShare(node.get("effect").text(), node.get("bounces", None).maybe(_Node.integer), **numbers)
 
 
 def _shadow_part(node: _Node) -> ShadowPart:

@@ -9,6 +9,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.bounce_content import bounce_line
 from lightmeter.reports.candidates_table import side_by_side
 from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.fix_first import fix_first
@@ -52,6 +53,7 @@ def comparison(results: Results) -> Group:
     if worst := by_share([one for one in results.objects if _finite(one.share)]):
         parts.append(_object(worst[0]))
     parts += [reason(*shadow_line(shadow)) for shadow in results.shadows]
+    parts += [reason(*bounce_line(bounce)) for bounce in results.bounces]
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
