@@ -117,6 +117,15 @@ def test_maps_hide_nothing_where_everything_sees_everything(device):
     assert (mapped <= free * (1 + 1e-5)).all()
 
 
+def test_light_comes_from_sides_that_the_camera_does_not_see(device):
+    """From a shelf's top to the wall above it, seen from below: who faces whom is the lamp's matter."""
+    shelf = Shape("shelf", shapes.plane(1.0, 0.5), GREY, moved(y=0.5, z=0.8))
+    lamp = PointLight("lamp", (0.0, 1.0, 0.8), (1.0, 1.0, 1.0))
+    view = camera((0.0, 0.0, 2.0), (0.0, 1.0, 0.0), yfov=1.2)
+    scene = scene_of(facing(GREY, 6.0, 6.0), shelf, view=view, lights=(lamp,))
+    assert indirect(device, scene, lights=64).max() > 0.01
+
+
 def test_a_clamp_only_takes_light_away(device):
     scene = ball(lights=(LAMP,))
     free, clamped, dim = (indirect(device, scene, lights=64, clamp=clamp) for clamp in (0.0, 0.1, 0.5))

@@ -30,7 +30,7 @@ def test_bounces_come_back_as_they_were() -> None:
 def test_shares_are_told_in_percent() -> None:
     whose, line = bounce_line(ONE)
     assert whose == "virtual_lights against one bounce"
-    assert line.startswith("recovered 87.3 % ±1.2, energy 87.3 %")
+    assert line.startswith("recovered 87.3 % ± 1.2, energy 87.3 %")
     content = bounce_content((ONE, ALL))
     assert content is not None
     assert [row["truth"] for row in content["rows"]] == ["one bounce", "all bounces"]

@@ -11,7 +11,6 @@ from ...fullscreen import FullscreenPass
 from ...gbuffer import GBuffer
 from ...shaders import source
 from ...stage import Stage
-from ...uniforms import set_uniforms
 from . import defines, uniforms
 from .depths import VirtualDepths
 from .rays import light_rays
@@ -95,8 +94,7 @@ class Passes:
 
     def _pass(self, name: str, surface: dict[str, object] | None = None) -> FullscreenPass:
         fragment = source(name, self._defines | (surface or {}), self._folder)
-        values = self._values | {"viewer": self._stage.viewer}
-        return FullscreenPass(self._stage.device, fragment, values)
+        return FullscreenPass(self._stage.device, fragment, self._values | {"viewer": self._stage.viewer})
 
     def _make_place(self) -> FullscreenPass:
         """The pass that places virtual lights, the maps that it reads, and the rays it reads them at."""
@@ -119,8 +117,7 @@ class Passes:
             textures = {f"gbuffer_{name}": texture for name, texture in seen.textures.items()}
             textures["rays"] = self._ray_table
             values = {"viewer": views.position, "inverse_range_square": rays.inverse_range_square}
-            set_uniforms(self._place.program, values)
-            self._place.draw(self._placed.framebuffer, textures, (start, 0, len(rays.texels), 1))
+            self._place.draw(self._placed.framebuffer, textures, (start, 0, len(rays.texels), 1), values)
             start += len(rays.texels)
 
     def _check_sizes(self, map_size: int) -> None:
