@@ -2,8 +2,8 @@
 
     python benchmarks/registration.py [--seeds 3] [--side 64 128] [--scene NAME …] [--output docs/registration.md]
 
-Faults are planted into two kinds of frames of every built-in scene: one that is path traced with its own random numbers,
-and lightmeter's real-time frame with its usual approximations. The tables replace what stands in docs/registration.md
+Faults are planted into two kinds of frames of every built-in scene: one that is path traced with its own random
+numbers, and lightmeter's real-time frame with its usual approximations. The tables replace what stands in the page
 under their heading; what is above it stays.
 """
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from lightmeter.ambient_errors import ambient_errors
 from lightmeter.attribution import Shares, attribute
+from lightmeter.bounce_errors import bounce_errors
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import Gathered, gather
 from lightmeter.candidates.side_by_side import SideBySide, compare_candidates
@@ -186,6 +187,7 @@ def compare(
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
         rays=() if bad.total() else ray_errors(renderer, truth, at),
         ambient=() if bad.total() else ambient_errors(renderer, truth, at),
+        bounces=() if bad.total() else bounce_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

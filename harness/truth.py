@@ -1,7 +1,7 @@
 """The exact side of a comparison: the reference's batches and the oracles, made when asked for, or recalled."""
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from weakref import WeakKeyDictionary
@@ -117,6 +117,11 @@ class Truth:
             return reference_in_time(self.scene, self.size, seconds=self.budget.seconds, **common)
         spp = self.budget.spp_per_batch
         return reference(self.scene, self.size, spp=spp, batches=self.budget.batches, **common)
+
+    def to_depth(self, depth: int) -> "Truth":
+        """The same for paths of at most this depth: 2 is direct light, and each bounce more is one more."""
+        scene = replace(self.scene, max_depth=depth)
+        return Truth(scene, self.size, self.budget, self.seed, store=self.store, report=self._report, say=self._say)
 
     def reference_batch(self, batch: int, spp: int) -> np.ndarray:
         """(H, W, 3): one batch of the reference by its number, without the others."""

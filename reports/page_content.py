@@ -7,6 +7,7 @@ from typing import Any
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.ambient_content import ambient_content
 from lightmeter.reports.attribution_content import attribution_content
+from lightmeter.reports.bounce_content import bounce_content
 from lightmeter.reports.candidates_content import candidates_content
 from lightmeter.reports.cells import measured, named, share_of_width, terms_with_meaning, timed
 from lightmeter.reports.closure import closure_statement
@@ -37,6 +38,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "shadows": shadow_content(results.shadows),
         "rays": ray_content(results.rays),
         "ambient": ambient_content(results.ambient),
+        "bounces": bounce_content(results.bounces),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),

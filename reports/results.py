@@ -210,6 +210,26 @@ class AmbientError:
 
 
 @dataclass(frozen=True)
+class BounceShare:
+    """How much of the light that other surfaces scatter an effect recovers; see `metrics.recovery`.
+
+    Attributes:
+        effect: which gives it.
+        bounces: how often that light is scattered by other surfaces at most; None: as often as it is.
+        share, energy, leaked, missing: pure numbers.
+        rmse: in radiance.
+    """
+
+    effect: str
+    bounces: int | None
+    share: Measurement
+    energy: Measurement
+    leaked: Measurement
+    missing: Measurement
+    rmse: Measurement
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """Something the scene or the plan holds and the comparison does not, and why."""
 
@@ -343,6 +363,7 @@ class Results:
     shadows: tuple[LightShadow, ...] = ()
     rays: tuple[RayError, ...] = ()
     ambient: tuple[AmbientError, ...] = ()
+    bounces: tuple[BounceShare, ...] = ()
     candidates: tuple[Candidate, ...] = ()
     failed_candidates: tuple[FailedCandidate, ...] = ()
     schema: int = SCHEMA

@@ -24,6 +24,7 @@ from lightmeter.reports.results import (
     SCHEMA,
     AmbientError,
     Attribution,
+    BounceShare,
     Candidate,
     Closure,
     Effect,
@@ -109,6 +110,7 @@ def from_json(text: str) -> Results:
         rays=tuple(_ray_error(item) for item in top.get("rays", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
         ambient=tuple(_ambient_error(item) for item in top.get("ambient", []).items()),
+        bounces=tuple(_bounce_share(item) for item in top.get("bounces", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
         failed_candidates=tuple(
             FailedCandidate(item.get("name").text(), item.get("why").text())
@@ -330,6 +332,11 @@ def _ambient_error(node: _Node) -> AmbientError:
         radius=node.get("radius").maybe(_Node.number),
         metrics=_metrics(node.get("metrics")),
     )
+
+
+def _bounce_share(node: _Node) -> BounceShare:
+    numbers = {name: _measurement(node.get(name)) for name in ("share", "energy", "leaked", "missing", "rmse")}
+    return BounceShare(node.get("effect").text(), node.get("bounces", None).maybe(_Node.integer), **numbers)
 
 
 def _shadow_part(node: _Node) -> ShadowPart:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.ambient_content import ambient_line
+from lightmeter.reports.bounce_content import bounce_line
 from lightmeter.reports.candidates_table import side_by_side
 from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.fix_first import fix_first
@@ -57,6 +58,7 @@ def comparison(results: Results) -> Group:
     parts += [reason(*ray_line(rays)) for rays in results.rays]
     if results.ambient:
         parts.append(reason(*ambient_line(results.ambient)))
+    parts += [reason(*bounce_line(bounce)) for bounce in results.bounces]
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))

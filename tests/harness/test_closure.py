@@ -2,8 +2,8 @@
 
 The interval of the bias must contain 0 and be narrow: a wide one proves nothing. The budgets below buy half-widths
 under 5e-4 of the mean (`pytest -m slow`), and a quarter of them, which every run spends, about 1e-3;
-`benchmarks/closure.py` buys 1e-4 and takes correspondingly longer. A right program misses 0 in one of twenty runs by the meaning of a 95 % interval: seeds
-are fixed, so that it is decided once.
+`benchmarks/closure.py` buys 1e-4 and takes correspondingly longer. A right program misses 0 in one of twenty runs by
+the meaning of a 95 % interval: seeds are fixed, so that it is decided once.
 """
 
 from dataclasses import replace

@@ -34,6 +34,7 @@ NOT_TWINNED = {
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py
+    "received.glsl": {"all_lobes", "diffuse_only"},  # the surface handed on: test_virtual_lights.py
     "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
     "reflections.glsl": {"reflected"},  # asks the technique, whose seen_along reads pictures: test_reflections.py
     "static_cube_map.glsl": {"seen_along"},

@@ -5,6 +5,8 @@ import numpy as np
 from lightmeter.scenes.model import Shape
 from lightmeter.scenes.optics.texture import look_up
 
+from ...points_on_meshes import points_on_mesh
+
 ROBERTS = 0.7548776662466927, 0.5698402909980532
 """1/p and 1/p² with p³ = p + 1: the plane's R sequence (Roberts 2018, The Unreasonable Effectiveness of Quasirandom
 Sequences)."""
@@ -20,26 +22,12 @@ def light_points(shape: Shape, count: int, sets: int) -> np.ndarray:
     index = np.arange(count)
     x = (index + shifts[:, :1]) / count
     y = (index * (0.5 * (np.sqrt(5) - 1)) + shifts[:, 1:]) % 1
-    triangle, b1, b2, area, normals = _on_surface(shape, x.ravel(), y.ravel())
+    triangle, b1, b2, area, normals = points_on_mesh(shape.world, x.ravel(), y.ravel())
     corners = shape.world.positions[shape.world.triangles[triangle]].astype(np.float64)
     weights = np.stack([1 - b1 - b2, b1, b2], axis=1)[..., None]
     positions = np.sum(weights * corners, axis=1)
     radiance = _radiance(shape, triangle, weights) * (area / count)
     return np.stack([positions, normals[triangle], radiance], axis=1).reshape(sets, 3 * count, 3)
-
-
-def _on_surface(shape: Shape, x: np.ndarray, y: np.ndarray):
-    """Triangles and two of their barycentric weights, by area; the mesh's area, its triangles' unit normals."""
-    mesh = shape.world
-    a, b, c = (mesh.positions[mesh.triangles[:, i]].astype(np.float64) for i in range(3))
-    faces = np.cross(b - a, c - a)
-    sizes = np.linalg.norm(faces, axis=1)
-    ends = np.cumsum(sizes)
-    triangle = np.minimum(np.searchsorted(ends, x * ends[-1], side="right"), len(ends) - 1)
-    within = (x * ends[-1] - (ends - sizes)[triangle]) / np.maximum(sizes[triangle], 1e-300)
-    root = np.sqrt(np.clip(within, 0, 1))
-    normals = faces / np.maximum(sizes, 1e-300)[:, None]
-    return triangle, root * (1 - y), root * y, float(ends[-1]) / 2, normals
 
 
 def _radiance(shape: Shape, triangle: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -1,0 +1,45 @@
+"""How much of the light that other surfaces scatter an effect recovers, bounce by bounce."""
+
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.recovery import recovery
+from lightmeter.realtime.graph import Plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.reports.results import BounceShare
+from lightmeter.sides import FramePoints, contribution
+from lightmeter.stacking import mean_samples
+from lightmeter.truth import Truth
+
+BOUNCES = (1, 2, None)
+"""Truths that an effect is held against: light scattered once by other surfaces, at most twice, as often as it is."""
+
+
+def bounce_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[BounceShare, ...]:
+    """An effect that is for `indirect` alone, against paths that end after so many bounces, and against all.
+
+    Args:
+        at: the frame's points, at which the oracles are known.
+    """
+    effect = effect_for_bounces(renderer.plan)
+    return () if effect is None else against_bounces(renderer.plan, effect, truth, at)
+
+
+def effect_for_bounces(plan: Plan) -> str | None:
+    """The effect that declares `indirect` and nothing else; None where the frame has none."""
+    return next((name for name, (effect, _) in plan.effects.items() if effect.terms == ("indirect",)), None)
+
+
+def against_bounces(plan: Plan, effect: str, truth: Truth, at: FramePoints) -> tuple[BounceShare, ...]:
+    """What an effect gives of `indirect` against each number of bounces that the scene's paths have."""
+    longest = truth.scene.max_depth
+    found = []
+    for bounces in BOUNCES:
+        # A path of depth 2 is direct light: each bounce of other surfaces is one more.
+        if bounces is not None and 0 <= longest <= bounces + 2:
+            continue
+        exact = truth if bounces is None else truth.to_depth(bounces + 2)
+        batches = [exact.batch(at.points, n, "frame", at.spp, terms=("indirect",)) for n in range(truth.batches)]
+        tested, _ = contribution(plan, effect, at.captures, batches[0])
+        truths = [mean_samples(contribution(plan, effect, at.captures, batch)[1]) for batch in batches]
+        error = recovery(Comparison([mean_samples(tested)], truths))
+        found.append(BounceShare(effect, bounces, **vars(error)))
+    return tuple(found)
