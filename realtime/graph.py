@@ -170,9 +170,9 @@ def _candidates(scene: Scene, known: Mapping[str, Effect], choice: Choice, missi
         if choice.only and name not in choice.only:
             left_out.append(LeftOut(name, "not among the effects asked for"))
             continue
-        if effect.optional and not needless and not _is_asked(name, choice):
-            left_out.append(LeftOut(name, f"takes part where it is asked for: --use {name}"))
-            continue
+        if effect.optional:
+            unasked = "" if _is_asked(name, choice) else f"takes part where it is asked for: --use {name}"
+            needless = effect.unneeded(scene) or unasked
         if name in choice.without or needless:
             left_out.append(LeftOut(name, "left out as asked" if name in choice.without else needless))
         if not needless:

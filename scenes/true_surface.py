@@ -1,8 +1,9 @@
 """The true surface of a scene, and coarser ones of the same shapes.
 
 A shape that has a form (`shapes/forms.py`) can be drawn at any tessellation. The truth is traced from triangles too:
-from `FINE` steps of it, with the true normals at the vertices. A chord of such a circle is at most 1 − cos(π/512) =
-1.9·10⁻⁵ of its radius inside, and its silhouette lacks 1 − sin(2π/512)/(2π/512) = 2.5·10⁻⁵ of its area.
+from `FINE` steps of it, with the true normals at the vertices. A cylinder's wall is then at most 1 − cos(π/512) =
+1.9·10⁻⁵ of its radius inside the true one, a sphere's face 1 − cos(√2·π/512) = 3.8·10⁻⁵, and a round silhouette lacks
+1 − sin(2π/512)/(2π/512) = 2.5·10⁻⁵ of its area.
 """
 
 from dataclasses import replace
