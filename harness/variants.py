@@ -27,7 +27,7 @@ class Seen:
 
     Attributes:
         truth: the oracles on the variant's surface.
-        captures: what the effects gave at each sample.
+        captures: what the effects gave at each sample, where that was asked for.
         points: (n, H, W).
         family: names the random numbers of oracles here, see `Truth.batch`.
     """
@@ -62,14 +62,9 @@ class Variants:
 
     def surface(self, exact: Collection[str]) -> tuple[Renderer, Truth]:
         """Who draws the surface of a variant, and the oracles on it."""
-        effects = self.renderer.plan.effects
-        if any(name in effects and effects[name][0].surface is not None for name in self.named(exact)):
+        if self._has_true_surface(exact):
             return self._true, self.truth
         return self.renderer, self.truth.on(self.renderer.plan.scene)
-
-    @cached_property
-    def _true(self) -> Renderer:
-        return Renderer(self.renderer.device, self.renderer.plan.with_true_surface(), self.renderer.size)
 
     def see(self, exact: Collection[str], offsets: Sequence[np.ndarray], terms: bool = True) -> Seen:
         """A variant at some samples.
@@ -79,16 +74,34 @@ class Variants:
             terms: whether the effects' buffers are wanted.
         """
         renderer, truth = self.surface(exact)
-        filtered = "material" in self.renderer.plan.missing or not self._exact_material(exact)
-        captures = [renderer.capture(tuple(offset), terms=terms and filtered) for offset in offsets]
+        if self._has_true_surface(exact) and self._has_exact_material(exact):
+            # Rays are as exact as it gets, and do not mind how many triangles there are.
+            return self._shaded(exact, stack_points([truth.seen(offset) for offset in offsets]), terms)
+        as_drawn = "material" in self.renderer.plan.missing or not self._has_exact_material(exact)
+        captures = [renderer.capture(tuple(offset), terms=terms and as_drawn) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
-        if not filtered:
-            points = truth.exact_material(points)
-            captures = [renderer.shade(at_sample(points, n)) for n in range(len(captures))] if terms else captures
+        if not as_drawn:
+            return self._shaded(exact, truth.exact_material(points), terms)
         return Seen(truth, captures, points, self._family(exact))
 
-    def _exact_material(self, exact: Collection[str]) -> bool:
-        return self.named(exact) >= frozenset(players_of(self.renderer.plan, "material"))
+    def _shaded(self, exact: Collection[str], points: SurfacePoints, terms: bool) -> Seen:
+        """With the effects' buffers at given points, where they are wanted."""
+        renderer, truth = self.surface(exact)
+        captures = [renderer.shade(at_sample(points, n)) for n in range(len(points.shape))] if terms else []
+        return Seen(truth, captures, points, self._family(exact))
+
+    @cached_property
+    def _true(self) -> Renderer:
+        return Renderer(self.renderer.device, self.renderer.plan.with_true_surface(), self.renderer.size)
+
+    def _has_true_surface(self, exact: Collection[str]) -> bool:
+        effects = self.renderer.plan.effects
+        return any(name in effects and effects[name][0].surface is not None for name in self.named(exact))
+
+    def _has_exact_material(self, exact: Collection[str]) -> bool:
+        """Whether parameters are unfiltered; so they are without textures."""
+        plan = self.renderer.plan
+        return "material" in plan.missing or self.named(exact) >= frozenset(players_of(plan, "material"))
 
     def _family(self, exact: Collection[str]) -> str:
         """The name of a variant's random numbers."""
