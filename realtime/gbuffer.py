@@ -86,6 +86,9 @@ class GBuffer:
         channels: those that are read; the rest is left out.
         radiance: the texture that emission and the environment behind everything go to.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
+
+    Attributes:
+        offset: where in the pixels the scene was sampled last.
     """
 
     def __init__(
@@ -121,6 +124,7 @@ class GBuffer:
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
+        self.offset = (0.0, 0.0)
 
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
@@ -130,6 +134,7 @@ class GBuffer:
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
         gl, camera = self._device.gl, self._scene.camera
+        self.offset = offset
         self._framebuffer.use()
         self._framebuffer.clear()
         if self._cleared is not None:

@@ -223,8 +223,8 @@ class Renderer:
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
         target.clear(neutral, neutral, neutral)
-        if shading.has_map and step.light is not None and self._held.get(step.effect) != step.light:
-            # A light's map does not depend on where in the pixel the scene is sampled.
+        stale = shading.is_per_sample or self._held.get(step.effect) != step.light
+        if shading.has_map and step.light is not None and stale:
             shading.own.draw(step.light)
             self._held[step.effect] = step.light
         shading.draw(step, target, {})

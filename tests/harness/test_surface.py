@@ -82,3 +82,14 @@ def test_the_report_has_the_surfaces_row_and_its_share():
     assert shares + found.attribution.residual["mse"].value == pytest.approx(total, rel=1e-9)
     assert player.share["mse"].value > 0.3 * total
     assert "surface" not in found.not_approximated
+
+
+def test_gouraud_is_judged_on_the_sum_of_its_terms():
+    """On its surface, with the light that it interpolated, and the exact visibility: against everything exact."""
+    renderer, truth = both_sides(Choice(use=("gouraud",), settings={"gouraud": {"tessellation": 8}}), spp=8)
+    at = FramePoints.of(renderer, truth)
+    sides = effect_sides(renderer, truth, lambda *_: None, at, only=("gouraud",))["gouraud"]
+    exact, drawn = at.batch((), 0, 1), at.captures[0].direct[0]
+    arrives = np.where(exact.direct[0][0] > 0, exact.shadowed[0][0] / np.maximum(exact.direct[0][0], 1e-9), 1)
+    np.testing.assert_allclose(sides.tested[0], drawn * arrives, atol=1e-5)
+    assert measure("rmse", sides.tested, sides.truth).value > 0.05 * sides.truth[0].max()
