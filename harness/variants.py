@@ -76,18 +76,21 @@ class Variants:
         renderer, truth = self.surface(exact)
         if self._has_true_surface(exact) and self._has_exact_material(exact):
             # Rays are as exact as it gets, and do not mind how many triangles there are.
-            return self._shaded(exact, stack_points([truth.seen(offset) for offset in offsets]), terms)
+            return self._shaded(exact, stack_points([truth.seen(offset) for offset in offsets]), offsets, terms)
         as_drawn = "material" in self.renderer.plan.missing or not self._has_exact_material(exact)
         captures = [renderer.capture(tuple(offset), terms=terms and as_drawn) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
         if not as_drawn:
-            return self._shaded(exact, truth.exact_material(points), terms)
+            return self._shaded(exact, truth.exact_material(points), offsets, terms)
         return Seen(truth, captures, points, self._family(exact))
 
-    def _shaded(self, exact: Collection[str], points: SurfacePoints, terms: bool) -> Seen:
+    def _shaded(
+        self, exact: Collection[str], points: SurfacePoints, offsets: Sequence[np.ndarray], terms: bool
+    ) -> Seen:
         """With the effects' buffers at given points, where they are wanted."""
         renderer, truth = self.surface(exact)
-        captures = [renderer.shade(at_sample(points, n)) for n in range(len(points.shape))] if terms else []
+        places = enumerate(offsets) if terms else ()
+        captures = [renderer.shade(at_sample(points, n), tuple(place)) for n, place in places]
         return Seen(truth, captures, points, self._family(exact))
 
     @cached_property

@@ -151,8 +151,9 @@ class GBuffer:
         if self._background is not None:
             self._background.draw(offset)
 
-    def load(self, points: SurfacePoints) -> None:
-        """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
+    def load(self, points: SurfacePoints, offset: tuple[float, float] = (0.0, 0.0)) -> None:
+        """Hold these points, as if they had been drawn at the offset: (H, W), with whatever parameters they have."""
+        self.offset = offset
         for attachment in self._attachments:
             if not attachment.channels:
                 continue

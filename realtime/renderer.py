@@ -186,9 +186,9 @@ class Renderer:
         points = self._points(gbuffer)
         return self._shaded(points) if terms else Capture(points, {}, {}, {})
 
-    def shade(self, points: SurfacePoints) -> Capture:
-        """Every effect's buffer at given points, such as a capture's with other parameters."""
-        self._capture_stage[0].load(points)
+    def shade(self, points: SurfacePoints, offset: tuple[float, float] = (0.0, 0.0)) -> Capture:
+        """Every effect's buffer at given points, such as a capture's at that offset with other parameters."""
+        self._capture_stage[0].load(points, offset)
         return self._shaded(points)
 
     def _shaded(self, points: SurfacePoints) -> Capture:

@@ -75,6 +75,14 @@ def test_light_at_vertices_is_interpolated_over_the_triangle(device):
     assert off.max() < 0.5 * expected.max()
 
 
+def test_given_points_are_lit_as_those_that_were_drawn_there(device):
+    choice = Choice(use=("gouraud",), settings={"gouraud": {"tessellation": 16}})
+    there, offset = Renderer(device, compile_plan(torus(), effects(), choice), SIZE), (0.3, -0.2)
+    drawn = there.capture(offset)
+    there.capture((-0.4, 0.45))
+    np.testing.assert_array_equal(there.shade(drawn.points, offset).direct[0], drawn.direct[0])
+
+
 def test_the_error_falls_with_the_square_of_the_tessellation(device):
     """Interpolating linearly leaves a second derivative times Δ²/8. Where n·l or n·v ends there is a kink, left out."""
     scene = torus()
