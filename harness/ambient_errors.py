@@ -25,20 +25,21 @@ def ambient_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[A
         at: the frame's points, at which the oracles are known.
     """
     plan = renderer.plan
+    drawn = at.seen(()).truth  # on the surface that the frame has
     steps = [step for step in plan.steps if "environment_visibility" in step.writes]
     if not steps:
         return ()
     name = steps[0].effect
     seen = np.stack([capture.frame["environment_visibility"] for capture in at.captures])
     wanted = ("environment", "environment_visibility")
-    batches = [truth.batch(at.points, n, "frame", at.spp, terms=wanted) for n in range(truth.batches)]
+    batches = [at.batch((), n, at.spp, terms=wanted) for n in range(truth.batches)]
     tested = [mean_samples(batch.environment * seen) for batch in batches]
 
     def error(kind: str, radius: float | None, exact: list[np.ndarray]) -> AmbientError:
         return AmbientError(name, kind, radius, measure_all(METRICS, Comparison(tested, exact)))
 
     def occlusion(radius: float) -> list[np.ndarray]:
-        shares = (truth.ambient_occlusion(at.points, radius, n, at.spp) for n in range(truth.batches))
+        shares = (drawn.ambient_occlusion(at.points, radius, n, at.spp) for n in range(truth.batches))
         return [mean_samples(b.environment * s[..., None]) for b, s in zip(batches, shares, strict=True)]
 
     found = [error("term", None, [mean_samples(batch.environment_shadowed) for batch in batches])]

@@ -30,13 +30,14 @@ def effect_for_bounces(plan: Plan) -> str | None:
 
 def against_bounces(plan: Plan, effect: str, truth: Truth, at: FramePoints) -> tuple[BounceShare, ...]:
     """What an effect gives of `indirect` against each number of bounces that the scene's paths have."""
+    drawn = at.seen(()).truth  # on the surface that the frame has
     longest = truth.scene.max_depth
     found = []
     for bounces in BOUNCES:
         # A path of depth 2 is direct light: each bounce of other surfaces is one more.
         if bounces is not None and 0 <= longest <= bounces + 2:
             continue
-        exact = truth if bounces is None else truth.to_depth(bounces + 2)
+        exact = drawn if bounces is None else drawn.to_depth(bounces + 2)
         batches = [exact.batch(at.points, n, "frame", at.spp, terms=("indirect",)) for n in range(truth.batches)]
         tested, _ = contribution(plan, effect, at.captures, batches[0])
         truths = [mean_samples(contribution(plan, effect, at.captures, batch)[1]) for batch in batches]

@@ -129,7 +129,7 @@ def compare(
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)
-    truth = Truth(scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
+    truth = Truth(plan.true_scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")

@@ -25,7 +25,7 @@ def ray_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[RayEr
     for name, verdicts in centre.verdicts.items():
         tested, exact = [], []
         for number in range(truth.batches):
-            batch = truth.batch(at.points, number, "frame", at.spp, terms=plan.terms_of(name))
+            batch = at.batch((), number, at.spp, terms=plan.terms_of(name))
             for images, image in zip((tested, exact), contribution(plan, name, at.captures, batch), strict=True):
                 images.append(mean_samples(image))
         comparison = Comparison(tested, exact)

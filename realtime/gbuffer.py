@@ -180,9 +180,13 @@ class GBuffer:
             bind(draw.program, draw.textures)
             self._device.draw(draw.vertices, draw.count)
 
-    def load(self, points: SurfacePoints) -> None:
-        """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
-        self.offset = _sampled_at(points, self._scene.camera, self._size)
+    def load(self, points: SurfacePoints, offset: tuple[float, float] | None = None) -> None:
+        """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have.
+
+        Args:
+            offset: where in the pixels they were sampled; None: where they project to tells.
+        """
+        self.offset = _sampled_at(points, self._scene.camera, self._size) if offset is None else offset
         for attachment in self._attachments:
             if not attachment.channels:
                 continue

@@ -177,9 +177,9 @@ class Renderer:
         points = self._points(gbuffer)
         return self._shaded(points) if terms else Capture(points, {}, {}, {})
 
-    def shade(self, points: SurfacePoints) -> Capture:
-        """Every effect's buffer at given points, such as a capture's with other parameters."""
-        self._capture_stage[0].gbuffer.load(points)
+    def shade(self, points: SurfacePoints, offset: tuple[float, float] | None = None) -> Capture:
+        """Every effect's buffer at given points, such as a capture's at that offset with other parameters."""
+        self._capture_stage[0].gbuffer.load(points, offset)
         return self._shaded(points)
 
     def _shaded(self, points: SurfacePoints) -> Capture:
@@ -222,7 +222,8 @@ class Renderer:
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
         target.clear(neutral, neutral, neutral)
-        if shading.has_map and (step.light is None or self._held.get(step.effect) != step.light):
+        stale = step.light is None or shading.is_per_sample or self._held.get(step.effect) != step.light
+        if shading.has_map and stale:
             # A light's map does not depend on where in the pixel the scene is sampled; what the frame has may.
             shading.own.draw(step.light)
             if step.light is not None:

@@ -28,6 +28,7 @@ NAMES = (
     "penumbra",
     "plane",
     "posts",
+    "tessellation",
     "torus",
 )
 

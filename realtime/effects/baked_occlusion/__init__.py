@@ -40,7 +40,7 @@ EFFECT = Effect(
         SPECULAR_OCCLUSION,
     ),
     rank=3,
-    on_request=True,
+    optional=True,
     channels=CHANNELS,
     defines=specular_defines,
 )

@@ -49,7 +49,7 @@ EFFECT = Effect(
         SPECULAR_OCCLUSION,
     ),
     rank=1,
-    on_request=True,
+    optional=True,
     channels=CHANNELS,
     defines=defines,
 )

@@ -28,7 +28,7 @@ EFFECT = Effect(
         SPECULAR_OCCLUSION,
     ),
     rank=2,
-    on_request=True,
+    optional=True,
     channels=CHANNELS,
     defines=specular_defines,
 )
