@@ -17,7 +17,7 @@ from lightmeter.scenes.points import SurfacePoints
 _WITHOUT_LIGHT = {
     "Scene": {"name", "summary", "notes"},
     "Camera": {"name", "near", "far", "exposure"},
-    "Shape": {"name"},
+    "Shape": {"name", "form"},
     "Material": {"name", "occlusion_texture", "occlusion_strength", "left_out"},
     "Texture": {"min_filter"},
     "Image": {"name"},

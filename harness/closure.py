@@ -5,6 +5,7 @@ import numpy as np
 from lightmeter.families import offset_layers
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.truth import Truth
+from lightmeter.variants import Variants
 
 
 def closure_batches(renderer: Renderer, truth: Truth, **spending) -> np.ndarray:
@@ -13,4 +14,5 @@ def closure_batches(renderer: Renderer, truth: Truth, **spending) -> np.ndarray:
     Args:
         spending: samples, emission_spp, spp and report, as `offset_layers` takes them.
     """
-    return np.stack([images[0] for images in offset_layers(renderer, truth, **spending)])
+    variants = Variants(renderer, truth)
+    return np.stack([images[0] for images in offset_layers(variants, variants.everyone, **spending)])

@@ -126,7 +126,7 @@ def compare(
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)
-    truth = Truth(scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
+    truth = Truth(plan.true_scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
@@ -161,7 +161,7 @@ def compare(
         effects=tuple(
             outcome.Effect(
                 effect=name,
-                terms=tuple(term for term in plan.effects[name][0].terms if term not in truth.missing),
+                terms=tuple(term for term in plan.effects[name][0].terms if term not in plan.missing),
                 knobs=dict(plan.effects[name][1]),
                 metrics=measured[name],
                 time_ms=_timing(times.of(name)),

@@ -1,9 +1,9 @@
 """The composition with any set of players exact, as batches.
 
-Terms such as `material` and `coverage` are no buffers but variants of the G-buffer: making one exact changes the points
-that every other term is evaluated at. So there is a *family* of layers per variant: at the frame's own points, or at
-sub-pixel offsets of each batch's own (coverage exact); with the G-buffer's parameters, or unfiltered ones (material
-exact).
+Terms such as `surface`, `material` and `coverage` are no buffers but variants of the G-buffer: making one exact changes
+the points that every other term is evaluated at. So there is a *family* of layers per variant: at the frame's own
+points, or at sub-pixel offsets of each batch's own (coverage exact); and for each set of the players that vary the
+points (`variants.py`).
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -19,9 +19,10 @@ from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import MOST_SAMPLES, FramePoints
-from lightmeter.stacking import at_sample, mean_samples, stack_points
-from lightmeter.substitution import Slot, exact_ratios, player_of, slot_image, slots
+from lightmeter.stacking import mean_samples
+from lightmeter.substitution import Slot, exact_ratios, players_of, slot_image, slots
 from lightmeter.truth import FAMILIES, ExactBatch, Truth
+from lightmeter.variants import Variants
 
 EMISSION_SPP = 32
 """Samples per pixel of the emission's control variate."""
@@ -63,39 +64,35 @@ class Families:
         at: FramePoints,
         report: Report = silent,
     ) -> None:
-        self._renderer, self._truth, self._frame, self._report = renderer, truth, frame, report
+        self._truth, self._frame, self._report = truth, frame, report
         self._at = at
         self._slots = slots(renderer.plan)
-        self._known: dict[tuple[bool, bool], Layers] = {}
+        self._known: dict[tuple[frozenset[str], bool], Layers] = {}
         self._shift = np.zeros(1)
-        self._coverage, self._material = (player_of(renderer.plan, t) for t in ("coverage", "material"))
+        self._coverage = frozenset(players_of(renderer.plan, "coverage"))
 
     def layers(self, exact: Collection[str]) -> Layers:
         """The layers of the variant that these players make exact."""
-        variant = self._material in exact, self._coverage in exact
+        variant = self._at.variants.named(exact), self._coverage <= frozenset(exact)
         if variant not in self._known:
             make = self._at_offsets if variant[1] else self._at_frame
             self._known[variant] = make(variant[0])
         return self._known[variant]
 
-    def _at_frame(self, material_exact: bool) -> Layers:
+    def _at_frame(self, exact: frozenset[str]) -> Layers:
         """At the frame's own points; what needs no oracle is the same for all batches."""
-        at, truth = self._at, self._truth
-        points, captures = at.points, at.captures
-        if material_exact and at.exact_points is not points:
-            points, captures = at.exact_points, _shaded(self._renderer, at.exact_points)
-        family = "exact material" if material_exact else "frame"
-        batches = [truth.batch(points, batch, family, at.spp) for batch in range(truth.batches)]
-        layers = layers_at(self._slots, points, captures, batches, truth.scene)
-        if material_exact:
+        at, seen = self._at, self._at.seen(exact)
+        batches = [at.batch(exact, batch, at.spp) for batch in range(self._truth.batches)]
+        layers = layers_at(self._slots, seen.points, seen.captures, batches, seen.truth.scene)
+        if exact:
             self.layers(())  # whose shift is this one's too
         else:
             self._shift = self._frame - composition(layers, ())
         return replace(layers, base=layers.base + self._shift)
 
-    def _at_offsets(self, material_exact: bool) -> Layers:
+    def _at_offsets(self, exact: frozenset[str]) -> Layers:
         """At random sub-pixel offsets, other ones for every batch."""
-        parts = list(offset_layers(self._renderer, self._truth, self._slots, material_exact, report=self._report))
+        parts = list(offset_layers(self._at.variants, exact, self._slots, report=self._report))
         base, *rest = (np.stack(images) for images in zip(*parts, strict=True))
         images, start = [], 0
         for slot in self._slots:
@@ -141,10 +138,9 @@ def _is_noisy(slot: Slot, which: int, scene: Scene) -> bool:
 
 
 def offset_layers(
-    renderer: Renderer,
-    truth: Truth,
+    variants: Variants,
+    exact: Collection[str],
     slots: tuple[Slot, ...] = (),
-    material_exact: bool = True,
     *,
     samples: int = MOST_SAMPLES,
     emission_spp: int = EMISSION_SPP,
@@ -157,13 +153,14 @@ def offset_layers(
     points are nobody else's.
 
     Args:
+        exact: the variant, see `Variants.named`.
         slots: what to give separately; where there are none, base is the composition with every term exact (closure).
-        material_exact: whether the points have unfiltered parameters.
         samples: sub-pixel offsets per batch, at most.
         emission_spp: samples per pixel of the control variate: the edge of a bright lamp holds most of what shared
             sub-pixel offsets leave uncertain, and what is seen to emit can be traced by itself.
         spp: the oracles' samples per point and offset; by default they get the reference's, shared by the offsets.
     """
+    renderer, truth = variants.surface(exact)
     count, samples = truth.batches, min(truth.reference.spp, samples)
     spp = spp or max(1, truth.reference.spp // samples)
     offsets = coverage.evaluate(count, samples, seed=truth.seed + FAMILIES["closure"]) - 0.5
@@ -175,23 +172,19 @@ def offset_layers(
         truth.reference.spp,
         truth.seed,
         samples=(samples, emission_spp, spp),
-        material_exact=material_exact,
+        exact=sorted(exact),
         slots=[(slot.term, slot.players, slot.lights) for slot in slots],
         centre=digest(renderer.capture(terms=bool(slots))),
     )
 
     def make(batch: int) -> dict[str, np.ndarray]:
-        captures = [renderer.capture(tuple(place), terms=bool(slots)) for place in offsets[batch]]
-        points = stack_points([capture.points for capture in captures])
-        exact_points = truth.exact_material(points) if material_exact else points
-        if exact_points is not points:
-            points, captures = exact_points, _shaded(renderer, exact_points) if slots else captures
-        exact = truth.batch(points, batch, "closure", spp, keep=False)
+        seen = variants.see(exact, offsets[batch], terms=bool(slots))
+        made = truth.batch(seen.points, batch, "closure", spp, keep=False)
         variate = truth.emission_variate(offsets[batch], batch, emission_spp)
-        base = mean_samples(points.emission) if slots else exact.composition()
-        ratios = exact_ratios([exact]) if slots else {}
+        base = mean_samples(seen.points.emission) if slots else made.composition()
+        ratios = exact_ratios([made]) if slots else {}
         images = [base + variate]
-        images += [slot_image(slot, which, captures, exact, ratios) for slot in slots for which in slot.sets]
+        images += [slot_image(slot, which, seen.captures, made, ratios) for slot in slots for which in slot.sets]
         return {f"{i:03d}": image.astype(np.float32) for i, image in enumerate(images)}
 
     for batch in range(count):
@@ -202,8 +195,3 @@ def offset_layers(
             layers, _ = truth.store.recall(series, f"batch-{batch:04d}", lambda b=batch: make(b))
         yield [layers[name] for name in sorted(layers)]
     report("composition", count, count)
-
-
-def _shaded(renderer: Renderer, points: SurfacePoints) -> list[Capture]:
-    """The effects' buffers at each of (n, H, W) points."""
-    return [renderer.shade(at_sample(points, n)) for n in range(len(points.shape))]

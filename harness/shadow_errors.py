@@ -25,7 +25,7 @@ def shadow_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[Li
         if "visibility" not in step.writes or light is None:
             continue
         seen = np.stack([capture.visibility[light] for capture in at.captures])
-        batches = (truth.batch(at.points, n, "frame", at.spp, terms=("visibility",)) for n in range(truth.batches))
+        batches = (at.batch((), n, at.spp, terms=("visibility",)) for n in range(truth.batches))
         exact = [(batch.direct[light], batch.shadowed[light]) for batch in batches]
         error = shadow_error(
             [mean_samples(b * seen) for b, _ in exact],

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 
@@ -12,8 +11,9 @@ from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
-from lightmeter.stacking import mean_samples, stack_points
+from lightmeter.stacking import mean_samples
 from lightmeter.truth import ExactBatch, Truth
+from lightmeter.variants import Seen, Variants
 
 MOST_SAMPLES = 16
 """Sub-pixel samples at which terms are exact, at most; a frame with more is judged at some of them."""
@@ -42,40 +42,55 @@ class _Sums:
     truth: list[np.ndarray] = field(default_factory=list)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class FramePoints:
-    """The frame's own sub-pixel samples.
+    """The frame's own sub-pixel samples, at most `MOST_SAMPLES` of them, in every variant of the G-buffer."""
 
-    Attributes:
-        captures: what the effects gave at each of them.
-        points: (n, H, W), as the G-buffer holds them.
-    """
+    variants: Variants
+    _seen: dict[frozenset[str], Seen] = field(default_factory=dict)
 
-    truth: Truth
-    captures: list[Capture]
-    points: SurfacePoints
+    @classmethod
+    def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
+        """Of a frame; `truth` is of its true surface."""
+        return cls(Variants(renderer, truth))
 
-    @cached_property
-    def exact_points(self) -> SurfacePoints:
-        """The same points with unfiltered parameters; `points` itself where the scene has no textures."""
-        return self.truth.exact_material(self.points)
+    def seen(self, exact: Collection[str] = ()) -> Seen:
+        """With some players exact; seen once, where they vary the points at all."""
+        name = self.variants.named(exact)
+        if name not in self._seen:
+            self._seen[name] = self.variants.see(name, some_offsets(self.variants.renderer.offsets))
+        return self._seen[name]
+
+    @property
+    def truth(self) -> Truth:
+        """The oracles on the surface that is drawn."""
+        return self.seen().truth
+
+    @property
+    def captures(self) -> list[Capture]:
+        """What the effects gave at each sample."""
+        return self.seen().captures
+
+    @property
+    def points(self) -> SurfacePoints:
+        """(n, H, W), as the G-buffer holds them."""
+        return self.seen().points
 
     @property
     def spp(self) -> int:
         """Samples per point of the oracles: the reference's, shared by the points of a pixel."""
-        return self.spp_of(self.truth.reference.spp)
+        return self.spp_of(self.variants.truth.reference.spp)
 
     def spp_of(self, spp: int) -> int:
         """What is left of some samples per pixel for each of its points."""
         return max(1, spp // len(self.captures))
 
-    @classmethod
-    def of(cls, renderer: Renderer, truth: Truth) -> "FramePoints":
-        """Captures the frame's samples, at most `MOST_SAMPLES` of them."""
-        offsets = some_offsets(renderer.offsets)
-        captures = [renderer.capture(tuple(offset)) for offset in offsets]
-        points = stack_points([capture.points for capture in captures])
-        return cls(truth, captures, points)
+    def batch(
+        self, exact: Collection[str], batch: int, spp: int, remember: bool = True, terms: Collection[str] = tuple(TERMS)
+    ) -> ExactBatch:
+        """One batch of the oracles in a variant, see `Truth.batch`."""
+        seen = self.seen(exact)
+        return seen.truth.batch(seen.points, batch, seen.family, spp, remember=remember, terms=terms)
 
 
 def effect_sides(
@@ -93,34 +108,34 @@ def effect_sides(
     """
     plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
     wanted = set(plan.effects if only is None else only)
-    captures, points, spp = at.captures, at.points, at.spp
+    captures, spp = at.captures, at.spp
     drawn = dict.fromkeys(step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS)
     shading = [name for name in drawn if name in wanted]
     sums = {name: _Sums() for name in shading}
-    material, coverage = (name if name in wanted else None for name in map(plan.effect_of, ("material", "coverage")))
-    for name in (material, coverage):
-        if name is not None:
-            sums[name] = _Sums()
-    composed = material is not None or coverage is not None
+    everyone = at.variants.everyone
+    varying = [name for name in plan.effects if name in everyone & wanted]
+    coverage = [name for name in plan.effects_of("coverage") if name in wanted]
+    sums |= {name: _Sums() for name in (*varying, *coverage)}
+    composed = bool(varying or coverage)
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.effects[name][0].terms}
-    exact_points = at.exact_points if composed else points
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
-        at_frame = truth.batch(points, batch, "frame", spp, terms=terms)
+        at_frame = at.batch((), batch, spp, terms=terms)
         for name in shading:
             tested, exact = contribution(plan, name, captures, at_frame)
             sums[name].tested.append(mean_samples(tested))
             sums[name].truth.append(mean_samples(exact))
-        same = exact_points is points
-        exact = at_frame if same else truth.batch(exact_points, batch, "exact material", spp)
-        if material is not None:
-            sums[material].tested.append(at_frame.composition())
-            sums[material].truth.append(exact.composition())
-        if coverage is not None:
-            sums[coverage].tested.append(exact.composition())
+        if not composed:
+            continue
+        exact = at.batch(everyone, batch, spp).composition()
+        for name in varying:
+            sums[name].tested.append(at.batch(everyone - {name}, batch, spp).composition())
+            sums[name].truth.append(exact)
+        for name in coverage:
+            sums[name].tested.append(exact)
     report("oracles at the frame's points", truth.batches, truth.batches)
-    if coverage is not None:
-        sums[coverage].truth = truth.reference.batches
+    for name in coverage:
+        sums[name].truth = truth.reference.batches
     return {name: Sides(s.tested, s.truth) for name, s in sums.items()}
 
 
@@ -129,18 +144,16 @@ def coverage_sides(renderer: Renderer, truth: Truth, report: Report) -> Sides:
 
     `effect_sides` takes some of them, which is enough for a picture; a sweep compares numbers of samples.
     """
-    offsets = renderer.offsets
+    variants, offsets = Variants(renderer, truth), renderer.offsets
     spp = max(1, truth.reference.spp // len(offsets))
     parts = np.array_split(offsets, -(-len(offsets) // MOST_SAMPLES))
     tested = [np.zeros((*truth.size[::-1], 3)) for _ in range(truth.batches)]
     for number, part in enumerate(parts):
-        points = truth.exact_material(
-            stack_points([renderer.capture(tuple(offset), terms=False).points for offset in part])
-        )
+        seen = variants.see(variants.everyone, part, terms=False)
         for batch, image in enumerate(tested):
             report("oracles at the frame's points", number * len(tested) + batch, len(parts) * len(tested))
             # Each part has random numbers of its own.
-            exact = truth.batch(points, batch * len(parts) + number, "exact material", spp)
+            exact = seen.truth.batch(seen.points, batch * len(parts) + number, seen.family, spp)
             image += exact.composition() * (len(part) / len(offsets))
     report("oracles at the frame's points", 1, 1)
     return Sides([image.astype(np.float32) for image in tested], list(truth.reference.batches))

@@ -22,7 +22,7 @@ from lightmeter.metrics.sequential import (
     squared_contributions,
 )
 from lightmeter.realtime.timing import Recording
-from lightmeter.scenes.points import SurfacePoints
+from lightmeter.scenes.terms import TERMS
 from lightmeter.sides import FramePoints, Sides, contribution, display_sides
 from lightmeter.stacking import mean_samples
 
@@ -185,7 +185,7 @@ class EffectSubject(ImageSubject):
     def __init__(self, case: Case, effect: str) -> None:
         super().__init__(case)
         self.effect = effect
-        self.composed = effect in (case.plan.effect_of("material"), case.plan.effect_of("coverage"))
+        self.composed = any(TERMS[term].scope == "gbuffer" for term in case.plan.effects[effect][0].terms)
 
     @cached_property
     def _at(self) -> FramePoints:
@@ -194,21 +194,18 @@ class EffectSubject(ImageSubject):
     def draw(self, number: int, size: int) -> np.ndarray:
         """(2, H, W, 3): tested and truth."""
         at, spp = self._at, self._at.spp_of(self.spp) * size
-        plan, truth = self.case.plan, self.case.truth
+        plan = self.case.plan
         if not self.composed:
             terms = plan.effects[self.effect][0].terms
-            exact = truth.batch(at.points, number, "frame", spp, remember=False, terms=terms)
+            exact = at.batch((), number, spp, remember=False, terms=terms)
             both = contribution(plan, self.effect, at.captures, exact)
             return np.stack([mean_samples(image) for image in both])
-        exact = self._composition(at.exact_points, "exact material", number, spp)
-        if self.effect == plan.effect_of("coverage"):
-            return np.stack([exact, truth.reference_batch(number, self.spp * size)])
-        if at.exact_points is at.points:  # no textures, nothing to filter
-            return np.stack([exact, exact])
-        return np.stack([self._composition(at.points, "frame", number, spp), exact])
-
-    def _composition(self, points: SurfacePoints, family: str, number: int, spp: int) -> np.ndarray:
-        return self.case.truth.batch(points, number, family, spp, remember=False).composition()
+        everyone = at.variants.everyone
+        exact = at.batch(everyone, number, spp, remember=False).composition()
+        if self.effect in plan.effects_of("coverage"):
+            return np.stack([exact, self.case.truth.reference_batch(number, self.spp * size)])
+        tested = at.batch(everyone - {self.effect}, number, spp, remember=False).composition()
+        return np.stack([tested, exact])
 
     def sides(self, limit: Limit) -> Sides:
         return Sides([both[0] for both in self.groups.images], [both[1] for both in self.groups.images])

@@ -14,7 +14,6 @@ import numpy as np
 
 from lightmeter.realtime.graph import FACTORS, Plan
 from lightmeter.realtime.renderer import Capture
-from lightmeter.scenes.features import missing_terms
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples
 from lightmeter.truth import ExactBatch
@@ -47,20 +46,23 @@ class Slot:
         return sum(1 << i for i, player in enumerate(self.players) if player in exact)
 
 
-def player_of(plan: Plan, term: str, light: int | None = None) -> str:
-    """Who stands for a term (of a light): the effect that gives it, else the term itself."""
+def players_of(plan: Plan, term: str, light: int | None = None) -> tuple[str, ...]:
+    """Who stands for a term (of a light): the effects that give it, else the term itself.
+
+    Only terms of the G-buffer have more than one: each effect changes another part of it.
+    """
     if TERMS[term].scope == "gbuffer":
-        return plan.effect_of(term) or term
-    return next((s.effect for s in plan.steps if term in s.writes and s.light == light), term)
+        return plan.effects_of(term) or (term,)
+    return (next((s.effect for s in plan.steps if term in s.writes and s.light == light), term),)
 
 
 def slots(plan: Plan) -> tuple[Slot, ...]:
     """The summands that the scene has, in order."""
-    missing = missing_terms(plan.scene)
+    missing = plan.missing
 
     def players(term: str, light: int | None = None) -> tuple[str, ...]:
         factors = [t for t in (term, FACTORS.get(term)) if t is not None and t not in missing]
-        return tuple(dict.fromkeys(player_of(plan, factor, light) for factor in factors))
+        return tuple(dict.fromkeys(name for factor in factors for name in players_of(plan, factor, light)))
 
     found: list[Slot] = []
     if "direct" not in missing:
@@ -73,12 +75,13 @@ def slots(plan: Plan) -> tuple[Slot, ...]:
 
 def players(plan: Plan) -> dict[str, tuple[str, ...]]:
     """Every player of the scene-linear image to the terms that become exact with it, as they are drawn."""
-    missing = missing_terms(plan.scene)
+    missing = plan.missing
     found: dict[str, dict[str, None]] = {}
     for term in (t for t in TERMS if TERMS[t].scope != "display" and t not in missing):
         of_lights = TERMS[term].scope == "light"
         for light in range(len(plan.scene.all_lights)) if of_lights else (None,):
-            found.setdefault(player_of(plan, term, light), {}).setdefault(term)
+            for name in players_of(plan, term, light):
+                found.setdefault(name, {}).setdefault(term)
     drawn = list(dict.fromkeys(step.effect for step in plan.steps))
     return {n: tuple(found[n]) for n in sorted(found, key=lambda n: drawn.index(n) if n in drawn else len(drawn))}
 

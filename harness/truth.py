@@ -1,5 +1,6 @@
 """The exact side of a comparison: the reference's batches and the oracles, made when asked for, or recalled."""
 
+import zlib
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -68,6 +69,7 @@ class Truth:
         folder: a reference written by `lightmeter reference`, taken in place of rendering one.
         report: told of progress.
         say: told, in a sentence, of what the user should know (a damaged file, a reference of another version).
+        reference_of: whose reference is this one's too; None: it has its own.
     """
 
     def __init__(
@@ -81,10 +83,12 @@ class Truth:
         folder: Path | None = None,
         report: Report = silent,
         say: Callable[[str], None] = lambda _message: None,
+        reference_of: "Truth | None" = None,
     ) -> None:
         self.scene, self.size, self.budget, self.seed, self.store = scene, size, budget, seed, store
         self.missing = missing_terms(scene)
-        self._folder, self._report, self._say = folder, report, say
+        self._folder, self._report, self._say, self._reference_of = folder, report, say, reference_of
+        self._other: Truth | None = None
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
         self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
         self._room = MEMORY
@@ -96,6 +100,26 @@ class Truth:
 
         return World.of(self.scene)
 
+    def on(self, scene: Scene) -> "Truth":
+        """The oracles on another surface of the same scene, with this truth's reference.
+
+        The last one asked for is kept: frames are measured one at a time.
+        """
+        if scene is self.scene:
+            return self
+        if self._other is None or self._other.scene is not scene:
+            self._other = Truth(
+                scene,
+                self.size,
+                self.budget,
+                self.seed,
+                store=self.store,
+                report=self._report,
+                say=self._say,
+                reference_of=self,
+            )
+        return self._other
+
     @property
     def batches(self) -> int:
         """K, the number of independent batches of the reference and of every oracle."""
@@ -104,6 +128,8 @@ class Truth:
     @cached_property
     def reference(self) -> Reference:
         """The reference's batches within the budget."""
+        if self._reference_of is not None:
+            return self._reference_of.reference
 
         def progress(p: Progress) -> None:
             self._report("reference", p.done, p.total)
@@ -192,7 +218,7 @@ class Truth:
     def _make_batch(
         self, points: SurfacePoints, batch: int, family: str, spp: int, keep: bool, there: Collection[str]
     ) -> ExactBatch:
-        options = {"spp": spp, "seed": self.seed + FAMILIES[family], "batch": batch, "keep": keep}
+        options = {"spp": spp, "seed": self.seed + stream(family), "batch": batch, "keep": keep}
         direct, shadowed, rest = {}, {}, {}
         if there & {"direct", "visibility"}:
             for light in range(len(self.scene.all_lights)):
@@ -253,7 +279,13 @@ class Truth:
 
 
 FAMILIES = {"frame": 0x10000, "exact material": 0x20000, "closure": 0x30000, "emission": 0x40000}
-"""What is added to the seed for each set of points."""
+"""What is added to the seed for sets of points; others have a number of their name, see `stream`."""
+
+
+def stream(family: str) -> int:
+    """What is added to the seed for a set of points."""
+    return FAMILIES[family] if family in FAMILIES else zlib.crc32(family.encode()) & 0x7FFFF000
+
 
 BEYOND_BATCHES = 1 << 30
 """From here on batches of the path tracer's stream are no reference's."""

@@ -116,6 +116,9 @@ class Effect:
             costs nothing.
         tables: (H, W, 4) float32 arrays that its shader looks up with linear interpolation, from the knobs, by the
             sampler's name.
+        part: for terms of the G-buffer: what of it the effect changes. One effect for each part takes part.
+        optional: whether it takes part only where it is asked for.
+        surface: for `surface`: the scene as it is drawn, from the scene and the knobs.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
         folder: where its GLSL lies; found by discovery.
     """
@@ -132,6 +135,9 @@ class Effect:
     uniforms: Callable[[Scene, Knobs, Light | None], dict[str, Any]] = lambda _scene, _knobs, _light: {}
     defines: Callable[[Knobs], dict[str, object]] = lambda _knobs: {}
     tables: Callable[[Knobs], dict[str, np.ndarray]] = lambda _knobs: {}
+    part: str = ""
+    optional: bool = False
+    surface: Callable[[Scene, Knobs], Scene] | None = None
     offsets: Callable[[Knobs], np.ndarray] | None = None
     folder: Path = field(default=Path(), compare=False)
 

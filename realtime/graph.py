@@ -1,12 +1,13 @@
 """The frame graph, compiled in plain Python: which effects draw what, in which order, and what is left out and why."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from lightmeter.scenes.features import missing_terms
 from lightmeter.scenes.model import Scene
 from lightmeter.scenes.terms import TERMS
+from lightmeter.scenes.true_surface import true_surface
 
 from .effect import Effect, EffectError, Knobs, nearest
 
@@ -56,6 +57,9 @@ class Plan:
     """A compiled frame.
 
     Attributes:
+        scene: as it is drawn.
+        true_scene: the same with its true surface; `scene` itself where no effect draws another.
+        missing: the terms that play no part, each with the reason.
         steps: what is drawn after the G-buffer, in order.
         channels: the G-buffer channels that the steps read.
         effects: the effects that take part, with every knob's value.
@@ -69,10 +73,20 @@ class Plan:
     effects: Mapping[str, tuple[Effect, Knobs]]
     left_out: tuple[LeftOut, ...]
     not_approximated: tuple[str, ...]
+    true_scene: Scene
+    missing: Mapping[str, str]
+
+    def effects_of(self, term: str) -> tuple[str, ...]:
+        """The names of all effects that have a part in a term."""
+        return tuple(name for name, (effect, _) in self.effects.items() if term in effect.terms)
+
+    def with_true_surface(self) -> "Plan":
+        """The same frame of the true surface."""
+        return replace(self, scene=self.true_scene)
 
     def effect_of(self, term: str) -> str | None:
         """The name of the effect that gives a term of the frame; None where none does."""
-        return next((name for name, (effect, _) in self.effects.items() if term in effect.terms), None)
+        return next(iter(self.effects_of(term)), None)
 
     def why_absent(self, effect: str) -> str:
         """Why an effect that exists takes no part in this frame."""
@@ -92,21 +106,50 @@ def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | Non
     choice = choice or Choice()
     _check_names(choice, known)
     settings = {name: effect.settings(choice.settings.get(name, {})) for name, effect in known.items()}
-    missing = missing_terms(scene)
+    missing = _missing(scene, known, choice)
     candidates, left_out = _candidates(scene, known, choice, missing)
 
     steps, uncovered = _steps(scene, candidates, missing, choice)
     taken = {step.effect for step in steps}
     for term in (t for t in TERMS if TERMS[t].scope == "gbuffer" and t not in missing):
-        variant = _first(candidates, term, choice)
-        taken |= {variant.name} if variant else set()
-        uncovered += [] if variant else [term]
+        variants = _of_gbuffer(candidates, term, choice)
+        taken |= variants
+        uncovered += [] if variants else [term]
     idle = [e for e in candidates if e.name not in taken and e.name not in choice.without]
     left_out += [_superseded(scene, effect, steps, candidates, choice) for effect in idle]
     left_out += [LeftOut(f"term {term}", why) for term, why in missing.items()]
     used = {name: (known[name], settings[name]) for name in known if name in taken}
     channels = frozenset(channel for effect, _ in used.values() for channel in effect.channels)
-    return Plan(scene, tuple(steps), channels, used, tuple(left_out), tuple(uncovered))
+    drawn, true = _surfaces(scene, used)
+    return Plan(drawn, tuple(steps), channels, used, tuple(left_out), tuple(uncovered), true, missing)
+
+
+def _missing(scene: Scene, known: Mapping[str, Effect], choice: Choice) -> dict[str, str]:
+    """The terms that the frame does not have: those of the scene, but for a surface that an effect is asked to draw."""
+    missing = missing_terms(scene)
+    asked = [known[name] for name in known if _is_asked(name, choice) and name not in choice.without]
+    if any("surface" in effect.terms and not effect.unneeded(scene) for effect in asked):
+        del missing["surface"]
+    return missing
+
+
+def _is_asked(name: str, choice: Choice) -> bool:
+    return name in choice.use or name in choice.only
+
+
+def _of_gbuffer(candidates: list[Effect], term: str, choice: Choice) -> set[str]:
+    """The effects that vary the G-buffer in a term: the first candidate for each part of it."""
+    parts = dict.fromkeys(effect.part for effect in candidates if term in effect.terms)
+    found = (_first(candidates, term, choice, lambda e, part=part: e.part == part) for part in parts)
+    return {effect.name for effect in found if effect is not None}
+
+
+def _surfaces(scene: Scene, used: Mapping[str, tuple[Effect, Knobs]]) -> tuple[Scene, Scene]:
+    """The scene as it is drawn, and with its true surface: both as given, unless an effect draws another."""
+    for effect, knobs in used.values():
+        if effect.surface is not None:
+            return effect.surface(scene, knobs), true_surface(scene)
+    return scene, scene
 
 
 def _check_names(choice: Choice, known: Mapping[str, Effect]) -> None:
@@ -127,6 +170,9 @@ def _candidates(scene: Scene, known: Mapping[str, Effect], choice: Choice, missi
         if choice.only and name not in choice.only:
             left_out.append(LeftOut(name, "not among the effects asked for"))
             continue
+        if effect.optional:
+            unasked = "" if _is_asked(name, choice) else f"takes part where it is asked for: --use {name}"
+            needless = effect.unneeded(scene) or unasked
         if name in choice.without or needless:
             left_out.append(LeftOut(name, "left out as asked" if name in choice.without else needless))
         if not needless:
@@ -190,6 +236,7 @@ def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: lis
     if not lit and any(TERMS[term].scope == "light" for term in effect.terms):
         return LeftOut(effect.name, "the scene has no light of the kinds it handles")
     others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
+    others += [e.name for e in candidates if effect.part and e.part == effect.part][:1]
     if others:
         return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(effect.terms)} already")
     out = [e.name for e in candidates if e.name in choice.without and set(e.terms) & set(effect.terms)]

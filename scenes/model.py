@@ -12,7 +12,7 @@ Conventions, stated once and tested in `tests/scenes/test_conventions.py`:
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 
@@ -170,6 +170,14 @@ class Mesh:
         put(self, "texcoords", tuple(_frozen(uv, np.float32, (n, 2)) for uv in self.texcoords))
 
 
+class Form(Protocol):
+    """A shape by its equation, see `shapes/forms.py`; hashable."""
+
+    def mesh(self, steps: int) -> Mesh:
+        """Its triangles at so many steps around its axis, the vertices and their normals true."""
+        ...
+
+
 IDENTITY = np.eye(4)
 IDENTITY.flags.writeable = False
 
@@ -180,12 +188,14 @@ class Shape:
 
     Attributes:
         matrix: (4, 4) float64, local to world.
+        form: what the mesh stands for, in the same local space; None where it is nothing but its triangles.
     """
 
     name: str
     mesh: Mesh
     material: Material
     matrix: np.ndarray = field(default_factory=lambda: IDENTITY)
+    form: Form | None = None
 
     @cached_property
     def world(self) -> Mesh:

@@ -33,6 +33,7 @@ class Centres:
         """Of a renderer's scene and size."""
         camera = truth.scene.camera
         points = stack_points([renderer.capture((0.0, 0.0), terms=False).points])
+        truth = truth.on(renderer.plan.scene)
         return cls(truth, points, -camera.matrix[:3, 2], camera.position)
 
     @cached_property

@@ -49,7 +49,8 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"--curve: expected 0 to 1e6 seconds, got {args.curve:g}")
     if args.all and args.knob:
         raise UsageError("--knob: names a knob of one effect, and cannot be given with --all")
-    from lightmeter.realtime.graph import Choice
+    from lightmeter.realtime.discovery import effects
+    from lightmeter.realtime.graph import Choice, compile_plan
     from lightmeter.sweeping import Sweeping, plan_visits
 
     scene = options.scene(args)
@@ -64,7 +65,15 @@ def run(args: argparse.Namespace) -> int:
     with TemporaryDirectory() as scratch, progress_bar() as report:
         # Settings share oracles: without the store they are kept for this run.
         store = Store(Path(scratch)) if args.no_store else Store(say=options.say)
-        truth = Truth(scene, size, budget, args.seed, store=store, report=report, say=options.say)
+        truth = Truth(
+            compile_plan(scene, effects(), choice).true_scene,
+            size,
+            budget,
+            args.seed,
+            store=store,
+            report=report,
+            say=options.say,
+        )
         sweeping = Sweeping(wanted, choice, truth, args.curve, report, candidates)
         try:
             sweeping.run()

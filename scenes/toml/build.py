@@ -18,6 +18,7 @@ from lightmeter.scenes.model import (
     Camera,
     DirectionalLight,
     Environment,
+    Form,
     Image,
     Material,
     Mesh,
@@ -29,6 +30,7 @@ from lightmeter.scenes.model import (
     Texture,
     Vector,
 )
+from lightmeter.scenes.shapes import forms
 from lightmeter.scenes.toml import entries
 from lightmeter.scenes.toml.placing import placement, unit
 
@@ -163,13 +165,14 @@ class Builder:
             return [self.shape(title, mesh, material, matrix @ local) for title, mesh, local in read]
         with _from(where):
             mesh = _SHAPES[type(entry)](entry)
-        return [self.shape(name, mesh, material, matrix)]
+            form = _FORMS[type(entry)](entry) if type(entry) in _FORMS else None
+        return [self.shape(name, mesh, material, matrix, form)]
 
-    def shape(self, name: str, mesh: Mesh, material: Material, matrix: np.ndarray) -> Shape:
+    def shape(self, name: str, mesh: Mesh, material: Material, matrix: np.ndarray, form: Form | None = None) -> Shape:
         mesh, material, notes = dressed(mesh, material)
         self.notes += [f"{name}: {note}" for note in notes]
         self.budget.spend(mesh)
-        return Shape(name, mesh, material, matrix)
+        return Shape(name, mesh, material, matrix, form)
 
     def painted(self, entry: entries.Painted, materials: dict[str, Material], where: str) -> Material:
         if entry.material is None:
@@ -232,6 +235,12 @@ _SHAPES: dict[type, Callable[..., Mesh]] = {
     entries.CylinderEntry: lambda e: shapes.cylinder(e.radius, e.height, e.segments, e.rings, e.caps),
     entries.ConeEntry: lambda e: shapes.cone(e.radius, e.height, e.segments, e.rings, e.cap),
     entries.DiskEntry: lambda e: shapes.disk(e.radius, e.segments),
+}
+
+_FORMS: dict[type, Callable[..., Form]] = {
+    entries.SphereEntry: lambda e: forms.Sphere(e.radius),
+    entries.TorusEntry: lambda e: forms.Torus(e.major, e.minor),
+    entries.CylinderEntry: lambda e: forms.Cylinder(e.radius, e.height, e.caps),
 }
 
 

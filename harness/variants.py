@@ -1,0 +1,99 @@
+"""The G-buffer with any of the players that vary it exact.
+
+`surface` and `material` are no buffers: making one exact changes the points that every other term is evaluated at. A
+*variant* is named by the players that are exact in it. It has a surface (the one that is drawn, or the true one: the
+rasteriser and the oracles change with it) and points on it with their parameters.
+"""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from lightmeter.realtime.renderer import Capture, Renderer
+from lightmeter.scenes.points import SurfacePoints
+from lightmeter.stacking import at_sample, stack_points
+from lightmeter.substitution import players_of
+from lightmeter.truth import Truth
+
+VARYING = ("surface", "material")
+"""The terms whose players change the points."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """The points of one variant at some sub-pixel samples.
+
+    Attributes:
+        truth: the oracles on the variant's surface.
+        captures: what the effects gave at each sample.
+        points: (n, H, W).
+        family: names the random numbers of oracles here, see `Truth.batch`.
+    """
+
+    truth: Truth
+    captures: list[Capture]
+    points: SurfacePoints
+    family: str
+
+
+@dataclass(eq=False)
+class Variants:
+    """All variants of one frame's G-buffer.
+
+    Args:
+        renderer: draws the frame.
+        truth: of the true surface.
+    """
+
+    renderer: Renderer
+    truth: Truth
+
+    @cached_property
+    def everyone(self) -> frozenset[str]:
+        """The players that vary the points."""
+        plan = self.renderer.plan
+        return frozenset(p for term in VARYING if term not in plan.missing for p in players_of(plan, term))
+
+    def named(self, exact: Collection[str]) -> frozenset[str]:
+        """The variant in which those of the players are exact that vary the points."""
+        return self.everyone & frozenset(exact)
+
+    def surface(self, exact: Collection[str]) -> tuple[Renderer, Truth]:
+        """Who draws the surface of a variant, and the oracles on it."""
+        effects = self.renderer.plan.effects
+        if any(name in effects and effects[name][0].surface is not None for name in self.named(exact)):
+            return self._true, self.truth
+        return self.renderer, self.truth.on(self.renderer.plan.scene)
+
+    @cached_property
+    def _true(self) -> Renderer:
+        return Renderer(self.renderer.device, self.renderer.plan.with_true_surface(), self.renderer.size)
+
+    def see(self, exact: Collection[str], offsets: Sequence[np.ndarray], terms: bool = True) -> Seen:
+        """A variant at some samples.
+
+        Args:
+            offsets: (n, 2) from the pixels' centres, pixels right and down.
+            terms: whether the effects' buffers are wanted.
+        """
+        renderer, truth = self.surface(exact)
+        filtered = "material" in self.renderer.plan.missing or not self._exact_material(exact)
+        captures = [renderer.capture(tuple(offset), terms=terms and filtered) for offset in offsets]
+        points = stack_points([capture.points for capture in captures])
+        if not filtered:
+            points = truth.exact_material(points)
+            captures = [renderer.shade(at_sample(points, n)) for n in range(len(captures))] if terms else captures
+        return Seen(truth, captures, points, self._family(exact))
+
+    def _exact_material(self, exact: Collection[str]) -> bool:
+        return self.named(exact) >= frozenset(players_of(self.renderer.plan, "material"))
+
+    def _family(self, exact: Collection[str]) -> str:
+        """The name of a variant's random numbers."""
+        named = self.named(exact)
+        if not named:
+            return "frame"
+        only_material = named == frozenset(players_of(self.renderer.plan, "material"))
+        return "exact material" if only_material else f"exact {', '.join(sorted(named))}"
