@@ -79,16 +79,23 @@ class Variants:
             terms: whether the effects' buffers are wanted.
         """
         renderer, truth = self.surface(exact)
-        filtered = "material" in self.renderer.plan.missing or not self._exact_material(exact)
-        captures = [renderer.capture(tuple(offset), terms=terms and filtered) for offset in offsets]
+        filtered, places = not self._exact_material(exact), [tuple(offset) for offset in offsets]
+        floats = exact if filtered else self.renderer.plan.effects
+        captures = [renderer.capture(place, terms and filtered, floats) for place in places]
         points = stack_points([capture.points for capture in captures])
         if not filtered:
             points = truth.exact_material(points)
-            captures = [renderer.shade(at_sample(points, n)) for n in range(len(captures))] if terms else captures
+            samples = [renderer.stored(at_sample(points, n), place, exact) for n, place in enumerate(places)]
+            points = stack_points(samples)
+            captures = [renderer.shade(sample) for sample in samples] if terms else captures
         return Seen(truth, captures, points, self._family(exact))
 
     def _exact_material(self, exact: Collection[str]) -> bool:
-        return self.named(exact) >= frozenset(players_of(self.renderer.plan, "material"))
+        """Whether texture values are unfiltered: where those who filter them are exact, however they are stored."""
+        plan = self.renderer.plan
+        everyone = players_of(plan, "material")
+        filters = [player for player in everyone if not plan.is_storage(player)]
+        return "material" not in plan.missing and self.named(exact) >= frozenset(filters or everyone)
 
     def _family(self, exact: Collection[str]) -> str:
         """The name of a variant's random numbers."""

@@ -119,6 +119,7 @@ class Effect:
         part: for terms of the G-buffer: what of it the effect changes. One effect for each part takes part.
         optional: whether it takes part only where it is asked for.
         surface: for `surface`: the scene as it is drawn, from the scene and the knobs.
+        stores: for `surface` and `material`: formats of the G-buffer's channels, see `layout.py`, from the knobs.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
         folder: where its GLSL lies; found by discovery.
     """
@@ -138,6 +139,7 @@ class Effect:
     part: str = ""
     optional: bool = False
     surface: Callable[[Scene, Knobs], Scene] | None = None
+    stores: Callable[[Knobs], dict[str, str]] = lambda _knobs: {}
     offsets: Callable[[Knobs], np.ndarray] | None = None
     folder: Path = field(default=Path(), compare=False)
 

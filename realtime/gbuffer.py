@@ -120,7 +120,7 @@ class GBuffer:
 
     @property
     def place(self) -> dict[str, Any]:
-        """Uniforms for shaders that read it, which change with the sample that was drawn: where a depth's pixel lies."""
+        """Uniforms for shaders that read it and that change with the sample drawn: where a depth's pixel lies."""
         return self._place
 
     def _sampled_at(self, offset: tuple[float, float]) -> None:
@@ -227,11 +227,9 @@ class GBuffer:
 
 def declarations(attachments: Sequence[layout.Attachment]) -> str:
     """GLSL that declares a shader's outputs."""
-    return "\n".join(
-        f"layout(location = {i}) out {'vec' if a.components > 1 else 'float'}{a.components if a.components > 1 else ''} "
-        f"out_{a.name};"
-        for i, a in enumerate(attachments)
-    )
+    types = ("float", "vec2", "vec3", "vec4")
+    lines = [f"layout(location = {i}) out {types[a.components - 1]} out_{a.name};" for i, a in enumerate(attachments)]
+    return "\n".join(lines)
 
 
 def writes(attachments: Sequence[layout.Attachment]) -> str:

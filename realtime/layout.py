@@ -1,7 +1,7 @@
 """How the G-buffer stores its channels: its attachments, their formats, and the bytes that they take.
 
-Unless an effect asks for less, everything is kept in 32-bit floats. `stored` maps channels to formats: position, normal,
-base_color, and "parameters" for the four scalars of the material.
+Unless an effect asks for less, everything is kept in 32-bit floats. `stored` maps channels to formats: position,
+normal, base_color, and "parameters" for the four scalars of the material.
 """
 
 from collections.abc import Mapping, Sequence
@@ -130,7 +130,8 @@ def defines(of: Sequence[Attachment], camera: Camera) -> dict[str, object]:
     found: dict[str, object] = {}
     for attachment in of:
         found |= attachment.defines
-    found["STORED_FORMATS"] = bool(found)
+    if found:
+        found["STORED_FORMATS"] = True
     if "DEPTH_BITS" in found:
         parallel = camera.yfov is None
         encoding = {
