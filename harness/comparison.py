@@ -166,6 +166,7 @@ def compare(
                 metrics=measured[name],
                 time_ms=_timing(times.of(name)),
                 share=_share(shared, name),
+                bytes_per_pixel=plan.effects[name][0].bytes_per_pixel(plan.effects[name][1]),
             )
             for name in _order(plan)
         ),

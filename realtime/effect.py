@@ -11,6 +11,8 @@ import numpy as np
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.terms import TERMS
 
+from .layout import bytes_per_pixel
+
 KnobValue = float | int | str | bool
 Knobs = Mapping[str, KnobValue]
 
@@ -157,6 +159,11 @@ class Effect:
         for name in given:
             self.knob(name)
         return {k.name: k.read(given[k.name], self.name) if k.name in given else k.default for k in self.knobs}
+
+    def bytes_per_pixel(self, knobs: Knobs) -> int | None:
+        """What the G-buffer's channels take in the formats that the effect asks for; None where it asks for none."""
+        stored = self.stores(knobs)
+        return bytes_per_pixel(stored) if stored else None
 
     def knob(self, name: str) -> Knob:
         """The knob of that name.

@@ -143,8 +143,13 @@ def _effect_row(
         "cells": [_with_tail(name, effect.metrics) if name in effect.metrics else None for name in columns],
         "time": timed(effect.time_ms),
         "share": measured(share) if share else None,
-        "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()],
+        "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()] + stored_bytes(effect),
     }
+
+
+def stored_bytes(effect: Effect) -> list[str]:
+    """What it stores takes, in words; nothing where it stores none."""
+    return [] if effect.bytes_per_pixel is None else [f"{effect.bytes_per_pixel} bytes per pixel"]
 
 
 def _shares(results: Results, metric: str) -> dict[str, Measurement]:

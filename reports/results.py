@@ -64,6 +64,7 @@ class Effect:
         metrics: the effect's own error.
         time_ms: None where the effect has no pass of its own.
         share: metric name to the effect's share of the image's error; empty where not measured.
+        bytes_per_pixel: what the G-buffer's channels that it stores take; None where it stores none.
     """
 
     effect: str
@@ -72,6 +73,7 @@ class Effect:
     metrics: Metrics = field(default_factory=dict)
     time_ms: Timing | None = None
     share: Metrics = field(default_factory=dict)
+    bytes_per_pixel: int | None = None
 
 
 @dataclass(frozen=True)

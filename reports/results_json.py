@@ -247,6 +247,7 @@ def _effect(node: _Node) -> Effect:
         metrics=_metrics(node.get("metrics")),
         time_ms=node.get("time_ms", None).maybe(_timing),
         share=_metrics(node.get("share", {})),
+        bytes_per_pixel=node.get("bytes_per_pixel", None).maybe(_Node.integer),
     )
 
 
