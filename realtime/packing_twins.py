@@ -123,8 +123,8 @@ TWINS = (
         "float",
         (DISTANCE, RANGE),
         standard_depth,
-        roundings=2 + 2 + 2.5,
-        why=DIVISIONS,
+        roundings=2 + 2 + 2.5 + 1,
+        why=f"{DIVISIONS}; 1 less that",
         arrange=within,
     ),
     Twin(
@@ -133,8 +133,8 @@ TWINS = (
         "float",
         (DEPTH, RANGE),
         from_standard_depth,
-        roundings=1 + 3 + 2.5,
-        why="near·far; below a difference, a product, a difference; the division (2.5)",
+        roundings=1 + 1 + 3 + 2.5,
+        why="1 − depth; near·far; below a difference, a product, a sum; the division (2.5)",
     ),
     Twin(
         "packing.glsl",

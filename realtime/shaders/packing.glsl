@@ -18,23 +18,23 @@ float from_linear_depth_reversed(float depth, vec2 range) {
     return range.y - depth * (range.y - range.x);
 }
 
-// What a perspective projection puts into a depth buffer: even steps of 1/z, the nearer half of them within 2·near.
-float standard_depth(float z, vec2 range) {
-    return range.y * (z - range.x) / (z * (range.y - range.x));
-}
-
-float from_standard_depth(float depth, vec2 range) {
-    return range.x * range.y / (range.y - depth * (range.y - range.x));
-}
-
-// 1 at the near plane: a float's fine steps near 0 then make up for 1/z's coarse ones (Lapidous & Jiao 1999, "Optimal
-// Depth Buffer for Low-Cost Graphics Hardware"; Reed 2015, "Depth Precision Visualized").
+// What a perspective projection puts into a depth buffer, even steps of 1/z: here 1 at the near plane, so that a float's
+// fine steps near 0 make up for the coarse ones of 1/z far away (Reed 2015, "Depth Precision Visualized").
 float reversed_depth(float z, vec2 range) {
     return range.x * (range.y - z) / (z * (range.y - range.x));
 }
 
 float from_reversed_depth(float depth, vec2 range) {
     return range.x * range.y / (range.x + depth * (range.y - range.x));
+}
+
+// The same with 1 at the far plane. What is far is near 1, and all that is left of it are the last bits.
+float standard_depth(float z, vec2 range) {
+    return 1.0 - reversed_depth(z, range);
+}
+
+float from_standard_depth(float depth, vec2 range) {
+    return from_reversed_depth(1.0 - depth, range);
 }
 
 // 0…1 to 1…largest: code 0 is left to say that nothing is seen.

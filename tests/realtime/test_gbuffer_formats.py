@@ -36,7 +36,7 @@ def ball(view=None, at=(0.0, 0.0, 0.0), **material):
     shades = np.random.default_rng(1).random((len(round_mesh.positions), 4)).astype(np.float32)
     colored = replace(round_mesh, colors=shades)
     floor = shapes.plane(3, 3)
-    made = Material("made", metallic=0.3, roughness=0.47, **material)
+    made = Material("made", metallic=0.31, roughness=0.47, **material)
     placed = (
         Shape("ball", colored, made, moved(*at)),
         Shape("floor", floor, Material("other", roughness=0.91, metallic=0.0), moved(at[0], at[1] - 0.6, at[2])),
