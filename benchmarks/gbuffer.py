@@ -4,7 +4,7 @@
 
 For each format: bytes per pixel; how far what is read is from what was to be stored; and how far the frame is from that
 of a G-buffer in floats, in radiance and as FLIP. Nothing here is random, nothing is path traced. The picture: a frame
-whose positions are half floats, near the origin and far from it.
+whose positions are half floats, near the origin and far from it, and one that are rebuilt from a 16-bit depth.
 """
 
 import argparse
@@ -33,6 +33,8 @@ SURFACE = ("position", "normal", "depth_encoding", "depth_bits")
 DEPTHS = [(bits, encoding) for bits in (16, 24, 32) for encoding in ("linear", "standard", "reversed")]
 OFFSETS = (0.0, 10.0, 100.0, 1000.0)
 """How far scenes are moved from the origin, metres along x."""
+
+PICTURED = (0.0, 100.0, 1000.0)
 
 POSITIONS = [{"position": "fp16"}] + [
     {"position": "depth", "depth_bits": bits, "depth_encoding": encoding} for bits, encoding in DEPTHS
@@ -127,14 +129,15 @@ def rows(plain: Plain, formats: list[dict[str, object]], error: Error) -> list[s
 
 
 def picture(device: Device, size: tuple[int, int], path: Path) -> None:
-    """Positions in half floats at growing distances from the origin, side by side."""
+    """Positions in half floats at growing distances from the origin, and rebuilt from a 16-bit depth, side by side."""
+    panels: list[tuple[float, dict[str, object]]] = [(distance, POSITIONS[0]) for distance in PICTURED]
+    panels.append((0.0, {"position": "depth", "depth_bits": 16, "depth_encoding": "standard"}))
     parts = []
-    for distance in OFFSETS:
+    for distance, knobs in panels:
         plain = Plain(device, far_away(load("posts"), distance), size)
-        _, frame, _ = plain.beside({"position": "fp16"})
-        parts.append(plain.display(frame))
+        parts.append(plain.display(plain.beside(knobs)[1]))
     strip = np.clip(np.concatenate(parts, axis=1), 0, 1)
-    Image.fromarray((strip * 255 + 0.5).astype(np.uint8)).save(path)
+    Image.fromarray((strip * 255 + 0.5).astype(np.uint8)).save(path, quality=90)
 
 
 def main() -> None:
