@@ -12,6 +12,7 @@ from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples
+from lightmeter.substitution import exact_ratios, slot_image, slots
 from lightmeter.truth import ExactBatch, Truth
 from lightmeter.variants import Seen, Variants
 
@@ -92,6 +93,22 @@ class FramePoints:
         seen = self.seen(exact)
         return seen.truth.batch(seen.points, batch, seen.family, spp, remember=remember, terms=terms)
 
+    def without(self, name: str, batch: int, spp: int, remember: bool = True) -> np.ndarray:
+        """(H, W, 3): one batch of the image with every player exact but one of those that vary the points.
+
+        What that one draws is in it too: its error is that of all its terms together.
+        """
+        exact, plan = self.variants.everyone - {name}, self.variants.renderer.plan
+        made = self.batch(exact, batch, spp, remember)
+        if not any(step.effect == name for step in plan.steps):
+            return made.composition()
+        seen, ratios = self.seen(exact), exact_ratios([made])
+        image = mean_samples(seen.points.emission).astype(np.float64)
+        for slot in slots(plan):
+            others = slot.exact_set([player for player in slot.players if player != name])
+            image += slot_image(slot, others, seen.captures, made, ratios)
+        return image.astype(np.float32)
+
 
 def effect_sides(
     renderer: Renderer,
@@ -110,7 +127,7 @@ def effect_sides(
     wanted = set(plan.effects if only is None else only)
     captures, spp = at.captures, at.spp
     drawn = dict.fromkeys(step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS)
-    shading = [name for name in drawn if name in wanted]
+    shading = [name for name in drawn if name in wanted and name not in at.variants.everyone]
     sums = {name: _Sums() for name in shading}
     everyone = at.variants.everyone
     varying = [name for name in plan.effects if name in everyone & wanted]
@@ -129,7 +146,7 @@ def effect_sides(
             continue
         exact = at.batch(everyone, batch, spp).composition()
         for name in varying:
-            sums[name].tested.append(at.batch(everyone - {name}, batch, spp).composition())
+            sums[name].tested.append(at.without(name, batch, spp))
             sums[name].truth.append(exact)
         for name in coverage:
             sums[name].tested.append(exact)

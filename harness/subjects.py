@@ -204,8 +204,7 @@ class EffectSubject(ImageSubject):
         exact = at.batch(everyone, number, spp, remember=False).composition()
         if self.effect in plan.effects_of("coverage"):
             return np.stack([exact, self.case.truth.reference_batch(number, self.spp * size)])
-        tested = at.batch(everyone - {self.effect}, number, spp, remember=False).composition()
-        return np.stack([tested, exact])
+        return np.stack([at.without(self.effect, number, spp, remember=False), exact])
 
     def sides(self, limit: Limit) -> Sides:
         return Sides([both[0] for both in self.groups.images], [both[1] for both in self.groups.images])

@@ -151,6 +151,16 @@ class Truth:
         options = {"seed": self.seed, "store": self.store, "world": lambda: self._world}
         return one_batch(self.scene, self.size, spp, batch, **options)
 
+    def seen(self, offset: np.ndarray) -> SurfacePoints:
+        """(H, W): the points that rays through the pixels hit, with unfiltered parameters.
+
+        Args:
+            offset: (2,) from the pixels' centres, pixels right and down.
+        """
+        from lightmeter.groundtruth.primary import surface_points
+
+        return surface_points(self._world, self.size, np.asarray(offset) + 0.5)
+
     def exact_material(self, points: SurfacePoints) -> SurfacePoints:
         """The same points with unfiltered parameters; the points themselves where the scene has no textures."""
         if "material" in self.missing:

@@ -27,7 +27,7 @@ class Seen:
 
     Attributes:
         truth: the oracles on the variant's surface.
-        captures: what the effects gave at each sample.
+        captures: what the effects gave at each sample, where that was asked for.
         points: (n, H, W).
         family: names the random numbers of oracles here, see `Truth.batch`.
     """
@@ -62,14 +62,9 @@ class Variants:
 
     def surface(self, exact: Collection[str]) -> tuple[Renderer, Truth]:
         """Who draws the surface of a variant, and the oracles on it."""
-        effects = self.renderer.plan.effects
-        if any(name in effects and effects[name][0].surface is not None for name in self.named(exact)):
+        if self._has_true_surface(exact):
             return self._true, self.truth
         return self.renderer, self.truth.on(self.renderer.plan.scene)
-
-    @cached_property
-    def _true(self) -> Renderer:
-        return Renderer(self.renderer.device, self.renderer.plan.with_true_surface(), self.renderer.size)
 
     def see(self, exact: Collection[str], offsets: Sequence[np.ndarray], terms: bool = True) -> Seen:
         """A variant at some samples.
@@ -79,23 +74,41 @@ class Variants:
             terms: whether the effects' buffers are wanted.
         """
         renderer, truth = self.surface(exact)
-        filtered, places = not self._exact_material(exact), [tuple(offset) for offset in offsets]
-        floats = exact if filtered else self.renderer.plan.effects
-        captures = [renderer.capture(place, terms and filtered, floats) for place in places]
+        if self._has_true_surface(exact) and self._has_exact_material(exact):
+            # Rays are as exact as it gets, and do not mind how many triangles there are.
+            return self._shaded(exact, stack_points([truth.seen(offset) for offset in offsets]), offsets, terms)
+        as_drawn = "material" in self.truth.missing or not self._has_exact_material(exact)
+        floats = exact if as_drawn else self.renderer.plan.effects
+        captures = [renderer.capture(tuple(offset), terms and as_drawn, floats) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
-        if not filtered:
-            points = truth.exact_material(points)
-            samples = [renderer.stored(at_sample(points, n), place, exact) for n, place in enumerate(places)]
-            points = stack_points(samples)
-            captures = [renderer.shade(sample) for sample in samples] if terms else captures
+        if not as_drawn:
+            return self._shaded(exact, truth.exact_material(points), offsets, terms)
         return Seen(truth, captures, points, self._family(exact))
 
-    def _exact_material(self, exact: Collection[str]) -> bool:
-        """Whether texture values are unfiltered: where those who filter them are exact, however they are stored."""
+    def _shaded(
+        self, exact: Collection[str], points: SurfacePoints, offsets: Sequence[np.ndarray], terms: bool
+    ) -> Seen:
+        """At given points, as they are stored; with the effects' buffers there, where they are wanted."""
+        renderer, truth = self.surface(exact)
+        stored = [renderer.stored(at_sample(points, n), tuple(place), exact) for n, place in enumerate(offsets)]
+        there = zip(stored, offsets, strict=True) if terms else ()
+        captures = [renderer.shade(sample, tuple(place)) for sample, place in there]
+        return Seen(truth, captures, stack_points(stored), self._family(exact))
+
+    @cached_property
+    def _true(self) -> Renderer:
+        return Renderer(self.renderer.device, self.renderer.plan.with_true_surface(), self.renderer.size)
+
+    def _has_true_surface(self, exact: Collection[str]) -> bool:
+        effects = self.renderer.plan.effects
+        return any(name in effects and effects[name][0].surface is not None for name in self.named(exact))
+
+    def _has_exact_material(self, exact: Collection[str]) -> bool:
+        """Whether parameters are unfiltered, however they are stored; so they are without textures."""
         plan = self.renderer.plan
         everyone = players_of(plan, "material")
         filters = [player for player in everyone if not plan.is_storage(player)]
-        return "material" not in plan.missing and self.named(exact) >= frozenset(filters or everyone)
+        return "material" in self.truth.missing or self.named(exact) >= frozenset(filters or everyone)
 
     def _family(self, exact: Collection[str]) -> str:
         """The name of a variant's random numbers.

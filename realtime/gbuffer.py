@@ -70,6 +70,9 @@ class GBuffer:
         radiance: the texture that emission and the environment behind everything go to.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
         stored: formats of channels, see `layout.py`; those without one are kept in floats.
+
+    Attributes:
+        offset: where in the pixels the scene was sampled last.
     """
 
     def __init__(
@@ -89,7 +92,6 @@ class GBuffer:
         possible = layout.attachments(stored or {})
         self._holding = [a for a in possible if "position" in a.channels or varying & set(a.channels)]
         self._formats = layout.defines(self._holding, scene.camera)
-        self._place: dict[str, Any] = {}
         self._stores: dict[GBuffer, tuple[Any, Any, Any]] = {}
         attachments = list(self._holding)
         self.textures = {a.name: device.target(size, a.components, a.dtype) for a in attachments}
@@ -111,6 +113,7 @@ class GBuffer:
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
         self._draws = [self._prepare(batch) for batch in geometry.batches]
+        self.offset = (0.0, 0.0)
 
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are and how, and the constants."""
@@ -121,21 +124,19 @@ class GBuffer:
     @property
     def place(self) -> dict[str, Any]:
         """Uniforms for shaders that read it and that change with the sample drawn: where a depth's pixel lies."""
-        return self._place
-
-    def _sampled_at(self, offset: tuple[float, float]) -> None:
-        if "DEPTH_BITS" in self._formats:
-            camera = self._scene.camera
-            self._place = {
-                "depth_range": np.array([camera.near, camera.far]),
-                "depth_row": -view_matrix(camera)[2],
-                "world_from_pixel": world_from_pixel(camera, self._size, offset),
-            }
+        if "DEPTH_BITS" not in self._formats:
+            return {}
+        camera = self._scene.camera
+        return {
+            "depth_range": np.array([camera.near, camera.far]),
+            "depth_row": -view_matrix(camera)[2],
+            "world_from_pixel": world_from_pixel(camera, self._size, self.offset),
+        }
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
         gl, camera = self._device.gl, self._scene.camera
-        self._sampled_at(offset)
+        self.offset = offset
         self._framebuffer.use()
         self._framebuffer.clear()
         if self._cleared is not None:
@@ -144,7 +145,7 @@ class GBuffer:
         gl.enable_only(gl.DEPTH_TEST)
         matrix = projection_matrix(camera, self._size, offset) @ view_matrix(camera)
         for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix} | self._place)
+            set_uniforms(program, {"view_projection": matrix} | self.place)
         for draw in self._draws:
             draw.uniforms.write()
             bind(draw.program, draw.textures)
@@ -152,8 +153,9 @@ class GBuffer:
         if self._background is not None:
             self._background.draw(offset)
 
-    def load(self, points: SurfacePoints) -> None:
-        """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have."""
+    def load(self, points: SurfacePoints, offset: tuple[float, float] = (0.0, 0.0)) -> None:
+        """Hold these points, as if they had been drawn at the offset: (H, W), with whatever parameters they have."""
+        self.offset = offset
         for attachment in self._holding:
             width, height = self._size
             data = np.zeros((height, width, attachment.components), np.float32)
@@ -164,12 +166,9 @@ class GBuffer:
             data[~points.hit] = 0.0
             self.textures[attachment.name].write(np.ascontiguousarray(data[::-1]), alignment=1)
 
-    def store(self, other: "GBuffer", offset: tuple[float, float] = (0.0, 0.0)) -> None:
-        """Hold what another one of the same size holds, in this one's formats.
-
-        Args:
-            offset: where in the pixels that was sampled, pixels right and down from their centres.
-        """
+    def store(self, other: "GBuffer") -> None:
+        """Hold what another one of the same size holds, in this one's formats."""
+        self.offset = other.offset
         if other not in self._stores:
             fragment = source("stored.frag", other.defines() | self._formats).text
             fragment = fragment.replace("ATTACHMENTS", declarations(self._holding))
@@ -177,11 +176,10 @@ class GBuffer:
             target = self._device.framebuffer([self.textures[a.name] for a in self._holding])
             self._stores[other] = program, self._device.fullscreen(program), target
         program, vertices, target = self._stores[other]
-        self._sampled_at(offset)
         target.use()
         target.clear()
         self._device.gl.enable_only(self._device.gl.NOTHING)
-        set_uniforms(program, {"viewer": viewer(self._scene.camera)} | self._place | other.place)
+        set_uniforms(program, {"viewer": viewer(self._scene.camera)} | self.place | other.place)
         bind(program, {f"gbuffer_{name}": texture for name, texture in other.textures.items()})
         self._device.draw(vertices, 3)
 

@@ -91,8 +91,10 @@ class Plan:
         return player in self.effects and bool(self.effects[player][0].stores(self.effects[player][1]))
 
     def with_true_surface(self) -> "Plan":
-        """The same frame of the true surface."""
-        return replace(self, scene=self.true_scene)
+        """The same frame of the true surface, without what the effect that draws another one would draw."""
+        others = {name for name, (effect, _) in self.effects.items() if effect.surface is not None}
+        steps = tuple(step for step in self.steps if step.effect not in others)
+        return replace(self, scene=self.true_scene, steps=steps)
 
     def effect_of(self, term: str) -> str | None:
         """The name of the effect that gives a term of the frame; None where none does."""

@@ -190,17 +190,17 @@ class Renderer:
         """
         gbuffer, _ = self._capture_stage
         gbuffer.draw(offset)
-        points = self._stored(self._points(gbuffer), offset, exact)
+        points = self._stored(self._points(gbuffer), exact)
         return self._shaded(points) if terms else Capture(points, {}, {}, {})
 
     def stored(self, points: SurfacePoints, offset: tuple[float, float], exact: Collection[str] = ()) -> SurfacePoints:
         """Given points as the frame's G-buffer would give them back, had it been sampled at that offset."""
         if not self.plan.stored(exact):
             return points
-        self._capture_stage[0].load(points)
-        return self._stored(points, offset, exact)
+        self._capture_stage[0].load(points, offset)
+        return self._stored(points, exact)
 
-    def _stored(self, points: SurfacePoints, offset: tuple[float, float], exact: Collection[str]) -> SurfacePoints:
+    def _stored(self, points: SurfacePoints, exact: Collection[str]) -> SurfacePoints:
         """The points that the G-buffer for captures holds, once they were stored in the frame's formats."""
         stored = self.plan.stored(exact)
         if not stored:
@@ -209,13 +209,13 @@ class Renderer:
         if key not in self._formats:
             arguments = self.device, self._geometry, self.plan.scene, self.size, frozenset(CHANNELS), floats.radiance
             self._formats[key] = GBuffer(*arguments, stored=stored)
-        self._formats[key].store(floats, offset)
-        floats.store(self._formats[key], offset)
+        self._formats[key].store(floats)
+        floats.store(self._formats[key])
         return replace(points, **self._channels(floats))
 
-    def shade(self, points: SurfacePoints) -> Capture:
-        """Every effect's buffer at given points, such as a capture's with other parameters."""
-        self._capture_stage[0].load(points)
+    def shade(self, points: SurfacePoints, offset: tuple[float, float] = (0.0, 0.0)) -> Capture:
+        """Every effect's buffer at given points, such as a capture's at that offset with other parameters."""
+        self._capture_stage[0].load(points, offset)
         return self._shaded(points)
 
     def _shaded(self, points: SurfacePoints) -> Capture:
@@ -250,8 +250,8 @@ class Renderer:
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
         target.clear(neutral, neutral, neutral)
-        if shading.has_map and step.light is not None and self._held.get(step.effect) != step.light:
-            # A light's map does not depend on where in the pixel the scene is sampled.
+        stale = shading.is_per_sample or self._held.get(step.effect) != step.light
+        if shading.has_map and step.light is not None and stale:
             shading.own.draw(step.light)
             self._held[step.effect] = step.light
         shading.draw(step, target, {})

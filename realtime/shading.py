@@ -40,6 +40,11 @@ class ShadingPass:
         """Whether the effect draws something beforehand for each light."""
         return hasattr(self.own, "draw")
 
+    @property
+    def is_per_sample(self) -> bool:
+        """Whether what it draws beforehand depends on where in the pixel the scene is sampled; shadow maps do not."""
+        return getattr(self.own, "per_sample", False)
+
     def part(self, step: Step) -> Rectangle | None:
         """The part of the picture that the step can change: what its light reaches; None where that is nothing."""
         if step not in self._parts:

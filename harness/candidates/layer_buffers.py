@@ -11,8 +11,8 @@ from lightmeter.candidates.layer_names import LAYERS
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
-from lightmeter.stacking import stack_points
 from lightmeter.truth import ExactBatch, Truth
+from lightmeter.variants import Variants
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,10 +30,9 @@ class Centres:
 
     @classmethod
     def of(cls, renderer: Renderer, truth: Truth) -> "Centres":
-        """Of a renderer's scene and size."""
-        camera = truth.scene.camera
-        points = stack_points([renderer.capture((0.0, 0.0), terms=False).points])
-        truth = truth.on(renderer.plan.scene)
+        """Of a scene and size, on the true surface: an engine is not held to the triangles of our effects."""
+        camera, exact = truth.scene.camera, renderer.plan.effects_of("surface")
+        points = Variants(renderer, truth).see(exact, np.zeros((1, 2)), terms=False).points
         return cls(truth, points, -camera.matrix[:3, 2], camera.position)
 
     @cached_property

@@ -47,7 +47,7 @@ def angles(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("form", FORMS, ids=str)
 def test_vertices_and_normals_are_true(form):
-    """To float32's rounding, 6·10⁻⁸ of coordinates of about 1. On a rim the nearest normal is the wall's or the lid's."""
+    """To float32's rounding, 6·10⁻⁸ of coordinates of about 1. On a rim two normals are as near."""
     mesh = form.mesh(24)
     nearest, normals = form.nearest(mesh.positions.astype(np.float64))
     np.testing.assert_allclose(mesh.positions, nearest, atol=3e-7)
