@@ -18,7 +18,7 @@ compare: setup ## a real-time frame against the truth (SCENE=…, OUT=…, ARGS=
 
 test: ## the tests (ARGS=… goes to pytest)
 	@bash .ci/setup test
-	@$(VENV_PYTHON) -m pytest $(ARGS)
+	@$(VENV_PYTHON) -m pytest -n auto --maxprocesses 4 --dist loadfile $(ARGS)
 
 lint: ## ruff, import-linter, pyright
 	@bash .ci/setup lint

@@ -75,6 +75,11 @@ class Agreement:
         return float(np.count_nonzero(np.abs(self.contrasts - factor) < CONTRASTS)) / max(self.asked, 1)
 
     @property
+    def spread(self) -> float:
+        """Half of the levels are within this of the one that most share."""
+        return float(np.median(np.abs(self.levels - self.level))) if len(self.levels) else 0.0
+
+    @property
     def brighter(self) -> float:
         """The share of levels that are clearly too bright, 0…1."""
         return float(self.weights[self.levels > LEVELS].sum() / self.weights.sum()) if len(self.levels) else 0.0

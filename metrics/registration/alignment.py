@@ -64,8 +64,9 @@ class Edges:
         down, right = down[:, self.rows, self.columns], right[:, self.rows, self.columns]
         self._slopes = np.stack([-right, -down, right * self._x, down * self._y])
         self._theirs = [spline_filter(part) for part in theirs]
-        self.units = np.array([1.0, 1.0, 2 / width, 2 / height])
-        """One pixel, in each parameter: of a scale, at the border."""
+        border = max(height, width) / 2
+        self.units = np.array([1.0, 1.0, 1 / border, 1 / border])
+        """One pixel, in each parameter: of a scale, at the farther border."""
 
     def looked_up(self, placement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The reference's tensors where the placement has the points, (3, n), and which of them it has."""
@@ -99,7 +100,7 @@ class Fit:
 
     Attributes:
         placement: (4,) right, down, across − 1, upright − 1.
-        moved: (p,) how far, in pixels; a scale's: at the border.
+        moved: (p,) how far, in pixels; a scale's: at the farther border.
         doubt: (p,) its standard errors.
         evidence: (p,) its share of the normal equations, the others being unknown: about as many pixels as there are of
             clear edges that show it.

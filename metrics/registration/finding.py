@@ -11,7 +11,7 @@ from .agreement import Truth
 from .fault import Fault
 from .flip import find_flip, flip_fault
 from .geometry import field_of_view_fault, find_placement, shift_fault
-from .holes import OPAQUE, alpha_fault, background_fault, dark_background
+from .holes import OPAQUE, alpha_fault, background_factor, background_fault, dark_background
 from .light import Light, exposure_fault, find_light, transfer_fault
 from .placement import Placement
 from .sides import Sides
@@ -85,7 +85,7 @@ def _light(sides: Sides) -> Light:
     valid = sides.valid & ~dark_background(sides)
     if sides.alpha is not None and np.count_nonzero(valid & (sides.alpha >= OPAQUE)) >= _ENOUGH * valid.size:
         valid = valid & (sides.alpha >= OPAQUE)
-    light = find_light(sides.tested, Truth(sides.truth, sides.variance, valid))
+    light = find_light(sides.tested, Truth(sides.truth, sides.variance, valid), background_factor(sides))
     if light == Light() and sides.background is not None and background_fault(sides) is not None:
         surfaces = valid & ~sides.background
         return find_light(sides.tested, Truth(sides.truth, sides.variance, surfaces))

@@ -71,11 +71,14 @@ def find_placement(
             moves, found = Moves(shift=False, zoom=False), np.zeros(4)
     # Another aspect is rare, and looked for last.
     both = replace(moves, zoom=True, stretch=True)
-    stretched = search(edges, found, both.free)
-    if np.isfinite(stretched).all():
-        other = assess(edges, stretched, both.free)
-        if _holds(edges, other, moves, slice(both.free.shape[1] - 1, None), _least_border(edges)):
-            moves, found = both, stretched
+    starts = (found, _descend(levels[:-1], start, Moves(stretch=True).free))
+    candidates = [search(edges, _project(begin, both.free), both.free) for begin in starts]
+    candidates = [one for one in candidates if np.isfinite(one).all()]
+    if candidates:
+        best = max(candidates, key=lambda one: edges.correlation(one, one))
+        fit = assess(edges, best, both.free)
+        if _holds(edges, fit, moves, slice(both.free.shape[1] - 1, None), _least_border(edges)):
+            moves, found = both, best
     return _placement(edges, found, moves)
 
 
@@ -115,12 +118,18 @@ def _search(levels: list[tuple[int, Edges]], start: tuple[float, float]) -> np.n
     free = Moves().free
     near = search(edges, np.zeros(4), free)
     near = near if np.isfinite(near).all() else np.zeros(4)
-    far = np.array([*start, 0.0, 0.0])
+    far = _descend(levels, start, free)
+    return far if _gain(edges, far, near) > _wanted(float(np.abs((far - near) / edges.units).max())) else near
+
+
+def _descend(levels: list[tuple[int, Edges]], start: tuple[float, float], free: np.ndarray) -> np.ndarray:
+    """(4,) the placement that is found coarse to fine."""
+    found = np.array([*start, 0.0, 0.0])
     for factor, level in levels:
         pixels = np.array([factor, factor, 1.0, 1.0])
-        better = search(level, far / pixels, free, STILL if level is edges else 10 * STILL) * pixels
-        far = better if np.isfinite(better).all() else far
-    return far if _gain(edges, far, near) > _wanted(float(np.abs((far - near) / edges.units).max())) else near
+        better = search(level, found / pixels, free, STILL if factor == 1 else 10 * STILL) * pixels
+        found = better if np.isfinite(better).all() else found
+    return found
 
 
 def _kept(edges: Edges, fit: Fit, moves: Moves) -> Moves:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.ndimage import binary_erosion
 
@@ -69,28 +71,62 @@ def background_fault(sides: Sides, explained: bool = False, bent: bool = False) 
     seen = _background(sides) & _shines(sides)
     if explained and sides.alpha is not None:
         seen &= sides.alpha > CLEAR
+    colour = _one_colour(sides, seen)
+    if colour is None:
+        return None
+    if colour.black:
+        what = "is black"
+    elif np.abs(colour.ratios).max() <= (_OTHER_BENT if bent else _OTHER):
+        return None
+    elif colour.factor is not None:
+        what = f"is × {colour.factor:.3g} as bright as the truth's"
+    else:
+        what = "is one colour, ({:.3g}, {:.3g}, {:.3g})".format(*colour.value)
+    alike = np.abs(sides.tested - colour.value).max(axis=2) <= colour.tolerance
+    pixels = int(np.count_nonzero(seen & alike))
+    return Fault("background", f"the background {what} at {pixels} pixels", {"pixels": float(pixels)})
+
+
+def background_factor(sides: Sides) -> float | None:
+    """The factor by which the background's one colour is brighter than the truth's; None where it is no multiple."""
+    colour = _one_colour(sides, _background(sides) & _shines(sides))
+    return None if colour is None or colour.black else colour.factor
+
+
+@dataclass(frozen=True, eq=False)
+class _Colour:
+    """The colour that a background has everywhere.
+
+    Attributes:
+        value: (3,).
+        tolerance: how far from it a pixel may be.
+        ratios: (3,) logarithms of its ratios to the truth's.
+        black: whether it is.
+    """
+
+    value: np.ndarray
+    tolerance: float
+    ratios: np.ndarray
+    black: bool
+
+    @property
+    def factor(self) -> float | None:
+        """What the ratios are, where they are the same."""
+        return float(np.exp(self.ratios.mean())) if np.ptp(self.ratios) < _SAME else None
+
+
+def _one_colour(sides: Sides, seen: np.ndarray) -> _Colour | None:
+    """The one colour of these pixels; None where there are too few, or it is not one."""
     inner: np.ndarray = np.asarray(binary_erosion(seen, iterations=_CLEAR_OF_EDGES, border_value=1))
     if np.count_nonzero(inner) < _FEWEST:
         return None
     tested, truth = sides.tested[inner], sides.truth[inner]
-    colour = np.median(tested, axis=0)
-    level = float(truth.mean())
-    black = colour.max() <= _DARK * level
-    spread = np.percentile(np.abs(tested - colour), 90)
-    if spread > max(_EVEN * float(colour.max()), _DARK * level):
+    value, level = np.median(tested, axis=0), float(truth.mean())
+    tolerance = max(_EVEN * float(value.max()), _DARK * level)
+    if np.percentile(np.abs(tested - value), 90) > tolerance:
         return None
-    what = "is black"
-    if not black:
-        with np.errstate(divide="ignore"):
-            ratios = np.log(np.median(tested / truth, axis=0))
-        if np.abs(ratios).max() <= (_OTHER_BENT if bent else _OTHER):
-            return None
-        what = "is one colour, ({:.3g}, {:.3g}, {:.3g})".format(*colour)
-        if np.ptp(ratios) < _SAME:
-            what = f"is × {np.exp(ratios.mean()):.3g} as bright as the truth's"
-    alike = np.abs(sides.tested - colour).max(axis=2) <= max(_EVEN * float(colour.max()), _DARK * level)
-    pixels = int(np.count_nonzero(seen & alike))
-    return Fault("background", f"the background {what} at {pixels} pixels", {"pixels": float(pixels)})
+    ratios = np.log(np.maximum(np.median(tested / truth, axis=0), _DARK))
+    return _Colour(value, tolerance, ratios, bool(value.max() <= _DARK * level))
 
 
 def dark_background(sides: Sides) -> np.ndarray:

@@ -12,7 +12,8 @@ from .fault import Fault
 
 LEAST_STOPS = 0.1
 """The logarithm of the smallest factor that is named: ambient light that is a little off moves levels by less."""
-_TOGETHER = 0.15  # by which levels and contrasts may differ on it, in the logarithm
+_TOGETHER = 0.15  # by which surfaces may differ from the background's factor, in the logarithm
+_UNSURE = 0.4  # of a factor, in the logarithm: how far levels may differ from it, and contrasts from levels, together
 _SUPPORT = 0.2  # share of levels × share of contrasts that must speak for a curve or a factor,
 _LEAD = 2.0  # and how many times that of what was promised
 _HALF = 0.5  # of the levels must agree once a curve is undone
@@ -41,11 +42,12 @@ class Light:
         return straight / self.factor
 
 
-def find_light(tested: np.ndarray, truth: Truth) -> Light:
+def find_light(tested: np.ndarray, truth: Truth, backdrop: float | None = None) -> Light:
     """The curve and the factor under which levels and contrasts agree with the truth's, if they clearly do.
 
     Args:
         tested: (H, W, 3) as promised linear, finite, not negative.
+        backdrop: the factor that the background has for sure, as nothing shades it; None: unknown.
     """
     best, curve = truth.agreement(tested), None
     support = _own_support(best)
@@ -55,7 +57,7 @@ def find_light(tested: np.ndarray, truth: Truth) -> Light:
             curve, best = found
         elif _washed_out(best, truth.agreement(SRGB[0].undo(tested))):
             return Light(SRGB[0])
-    return Light(curve, _factor(best))
+    return Light(curve, _factor(best, backdrop))
 
 
 def _straightest(tested: np.ndarray, truth: Truth) -> tuple[Curve, Agreement] | None:
@@ -109,13 +111,23 @@ def _own_support(agreement: Agreement) -> float:
     return agreement.support(agreement.level) if agreement.tells else 0.0
 
 
-def _factor(agreement: Agreement) -> float:
-    """The exposure, or 1."""
+def _factor(agreement: Agreement, backdrop: float | None) -> float:
+    """The exposure, or 1: the background's where the surfaces share it, else the surfaces' own."""
     if not agreement.tells:
         return 1.0
     level, contrast = agreement.level, agreement.contrast
-    far = min(abs(level), abs(contrast)) > LEAST_STOPS
-    if not far or abs(level - contrast) > _TOGETHER:
+    if min(abs(level), abs(contrast)) <= LEAST_STOPS:
         return 1.0
-    support = agreement.support(level)
-    return float(np.exp(level)) if support >= max(_SUPPORT, _LEAD * agreement.support(0.0)) else 1.0
+    behind = None if backdrop is None else float(np.log(backdrop))
+    if (
+        behind is not None
+        and max(abs(level - behind), abs(contrast - behind)) <= _TOGETHER
+        and abs(behind) > LEAST_STOPS
+    ):
+        factor = behind
+    elif abs(level - contrast) + agreement.spread <= _UNSURE * abs(level):
+        factor = level
+    else:
+        return 1.0
+    enough = agreement.support(factor) >= max(_SUPPORT, _LEAD * agreement.support(0.0))
+    return float(np.exp(factor)) if enough else 1.0

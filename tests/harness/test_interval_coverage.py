@@ -61,9 +61,9 @@ def test_intervals_cover(pool, truth, gain):
         assert max(hits.values()) <= binom.ppf(1 - DOUBT, trials, 0.97), hits
 
 
-@pytest.mark.parametrize("gain", [1.0, 1.02, 1.5])
+@pytest.mark.parametrize("gain", [1.0, 1.5])
 def test_bounds_cover(pool, truth, gain):
-    trials = 60
+    trials = 30
     tested = truth * gain
     display = display_transform(compile_plan(load("torus"), effects()))
     names = ("flip", "flip_p99", "flip_worst_tile", "ssim", "mae", "rms_p95", "rms_worst_tile")

@@ -70,7 +70,7 @@ def test_a_knob_without_declared_values_needs_them():
 def test_a_sweep_of_shadow_maps(run, tmp_path):
     """Error falls with the resolution, and every file says the same."""
     knobs = ("--knob", "resolution=32,512", "--knob", "filter=hard")
-    words = ("--size", "48x48", "--spp", "16", "--curve", "2", "-o", "out", "--json")
+    words = ("--size", "48x48", "--spp", "16", "--curve", "5", "-o", "out", "--json")
     found = run("sweep", "posts", "shadow_map", *knobs, *words)
     assert found.code == 0, found.err
     document = found.json
