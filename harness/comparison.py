@@ -170,6 +170,7 @@ def compare(
                 time_ms=_timing(times.of(name)),
                 bake_ms=renderer.baking.milliseconds.get(name),
                 share=_share(shared, name),
+                bytes_per_pixel=plan.effects[name][0].bytes_per_pixel(plan.effects[name][1]),
             )
             for name in _order(plan)
         ),

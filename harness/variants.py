@@ -77,8 +77,9 @@ class Variants:
         if self._has_true_surface(exact) and self._has_exact_material(exact):
             # Rays are as exact as it gets, and do not mind how many triangles there are.
             return self._shaded(exact, stack_points([truth.seen(offset) for offset in offsets]), offsets, terms)
-        as_drawn = "material" in self.renderer.plan.missing or not self._has_exact_material(exact)
-        captures = [renderer.capture(tuple(offset), terms=terms and as_drawn) for offset in offsets]
+        as_drawn = "material" in self.truth.missing or not self._has_exact_material(exact)
+        floats = exact if as_drawn else self.renderer.plan.effects
+        captures = [renderer.capture(tuple(offset), terms and as_drawn, floats) for offset in offsets]
         points = stack_points([capture.points for capture in captures])
         if not as_drawn:
             return self._shaded(exact, truth.exact_material(points), offsets, terms)
@@ -87,11 +88,12 @@ class Variants:
     def _shaded(
         self, exact: Collection[str], points: SurfacePoints, offsets: Sequence[np.ndarray], terms: bool
     ) -> Seen:
-        """With the effects' buffers at given points, where they are wanted."""
+        """At given points, as they are stored; with the effects' buffers there, where they are wanted."""
         renderer, truth = self.surface(exact)
-        places = enumerate(offsets) if terms else ()
-        captures = [renderer.shade(at_sample(points, n), tuple(place)) for n, place in places]
-        return Seen(truth, captures, points, self._family(exact))
+        stored = [renderer.stored(at_sample(points, n), tuple(place), exact) for n, place in enumerate(offsets)]
+        there = zip(stored, offsets, strict=True) if terms else ()
+        captures = [renderer.shade(sample, tuple(place)) for sample, place in there]
+        return Seen(truth, captures, stack_points(stored), self._family(exact))
 
     @cached_property
     def _true(self) -> Renderer:
@@ -102,14 +104,20 @@ class Variants:
         return any(name in effects and effects[name][0].surface is not None for name in self.named(exact))
 
     def _has_exact_material(self, exact: Collection[str]) -> bool:
-        """Whether parameters are unfiltered; so they are without textures."""
+        """Whether parameters are unfiltered, however they are stored; so they are without textures."""
         plan = self.renderer.plan
-        return "material" in plan.missing or self.named(exact) >= frozenset(players_of(plan, "material"))
+        everyone = players_of(plan, "material")
+        filters = [player for player in everyone if not plan.is_storage(player)]
+        return "material" in self.truth.missing or self.named(exact) >= frozenset(filters or everyone)
 
     def _family(self, exact: Collection[str]) -> str:
-        """The name of a variant's random numbers."""
-        named = self.named(exact)
+        """The name of a variant's random numbers.
+
+        How channels are stored moves points by little: with the same numbers the difference has hardly any noise.
+        """
+        plan = self.renderer.plan
+        filters = {player for player in players_of(plan, "material") if not plan.is_storage(player)}
+        named = {player for player in self.named(exact) if not plan.is_storage(player)}
         if not named:
             return "frame"
-        only_material = named == frozenset(players_of(self.renderer.plan, "material"))
-        return "exact material" if only_material else f"exact {', '.join(sorted(named))}"
+        return "exact material" if named == filters else f"exact {', '.join(sorted(named))}"

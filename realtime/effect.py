@@ -11,6 +11,8 @@ import numpy as np
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.terms import TERMS
 
+from .layout import bytes_per_pixel
+
 KnobValue = float | int | str | bool
 Knobs = Mapping[str, KnobValue]
 
@@ -123,6 +125,7 @@ class Effect:
         part: for terms of the G-buffer: what of it the effect changes. One effect for each part takes part.
         optional: whether it takes part only where it is asked for.
         surface: for `surface`: the scene as it is drawn, from the scene and the knobs.
+        stores: for `surface` and `material`: formats of the G-buffer's channels, see `layout.py`, from the knobs.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
         folder: where its GLSL lies; found by discovery.
     """
@@ -144,6 +147,7 @@ class Effect:
     part: str = ""
     optional: bool = False
     surface: Callable[[Scene, Knobs], Scene] | None = None
+    stores: Callable[[Knobs], dict[str, str]] = lambda _knobs: {}
     offsets: Callable[[Knobs], np.ndarray] | None = None
     folder: Path = field(default=Path(), compare=False)
 
@@ -161,6 +165,11 @@ class Effect:
         for name in given:
             self.knob(name)
         return {k.name: k.read(given[k.name], self.name) if k.name in given else k.default for k in self.knobs}
+
+    def bytes_per_pixel(self, knobs: Knobs) -> int | None:
+        """What the G-buffer's channels take in the formats that the effect asks for; None where it asks for none."""
+        stored = self.stores(knobs)
+        return bytes_per_pixel(stored) if stored else None
 
     def knob(self, name: str) -> Knob:
         """The knob of that name.

@@ -1,6 +1,6 @@
 """The G-buffer: one draw per shape into the attachments that somebody reads."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,10 +9,11 @@ import numpy as np
 from lightmeter.scenes.model import Camera, Material, Scene, Texture, Vector
 from lightmeter.scenes.points import SurfacePoints
 
+from . import layout
 from .background import Background
 from .device import Device
 from .geometry import Batch, Geometry
-from .projection import projection_matrix, view_matrix
+from .projection import projection_matrix, view_matrix, viewer, world_from_pixel
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
@@ -20,22 +21,6 @@ CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specul
 """What effects may read. A channel that is the same everywhere costs no attachment."""
 
 
-@dataclass(frozen=True)
-class Attachment:
-    """One colour attachment: its name, the channels it holds and the GLSL that fills it."""
-
-    name: str
-    channels: tuple[str, ...]
-    expression: str
-    components: int = 4
-
-
-ATTACHMENTS = (
-    Attachment("position", ("position",), "vec4(world_position, 1.0)"),
-    Attachment("normal_roughness", ("normal", "roughness"), "vec4(normal, roughness)"),
-    Attachment("base_color_metallic", ("base_color", "metallic"), "vec4(base_color.rgb, metallic)"),
-    Attachment("specular_occlusion", ("specular", "occlusion"), "vec2(specular_factor, occlusion)", 2),
-)
 PARTS: dict[str, tuple[str, slice | int]] = {
     "position": ("position", slice(3)),
     "normal": ("normal_roughness", slice(3)),
@@ -45,10 +30,7 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "specular": ("specular_occlusion", 0),
     "occlusion": ("specular_occlusion", 1),
 }
-"""Where in the attachments each channel lies."""
-EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
-# Whole numbers that float32 holds exactly: the triangle's number in two halves of 12 bits and more.
-IDENTITY = Attachment("identity", (), "vec4(shape, gl_PrimitiveID & 4095, gl_PrimitiveID >> 12, 0.0)")
+"""Where in the attachments of floats each channel lies."""
 
 
 def constant_channels(scene: Scene) -> dict[str, float | Vector]:
@@ -87,6 +69,7 @@ class GBuffer:
         channels: those that are read; the rest is left out.
         radiance: the texture that emission and the environment behind everything go to; None: they are left out.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
+        stored: formats of channels, see `layout.py`; those without one are kept in floats.
 
     Attributes:
         shines: whether anything goes to `radiance`.
@@ -102,19 +85,24 @@ class GBuffer:
         channels: frozenset[str],
         radiance: Any,
         identity: bool = False,
+        stored: Mapping[str, str] | None = None,
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
         varying = channels - set(self.constants)
-        attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
-        self.textures = {a.name: device.target(size, a.components) for a in attachments}
+        possible = layout.attachments(stored or {})
+        self._holding = [a for a in possible if "position" in a.channels or varying & set(a.channels)]
+        self._formats = layout.defines(self._holding, scene.camera)
+        self._stores: dict[GBuffer, tuple[Any, Any, Any]] = {}
+        attachments = list(self._holding)
+        self.textures = {a.name: device.target(size, a.components, a.dtype) for a in attachments}
         self.radiance = radiance
         emits = radiance is not None and bool(scene.area_lights)
         if emits:
-            attachments.append(EMISSION)
+            attachments.append(layout.EMISSION)
             self.textures["radiance"] = radiance
         if identity:
-            attachments.append(IDENTITY)
+            attachments.append(layout.IDENTITY)
             self.textures["identity"] = device.target(size)
         self._attachments = attachments
         device.counts["textures"] += 1
@@ -136,9 +124,22 @@ class GBuffer:
         return projection_matrix(camera, self._size, self.offset) @ view_matrix(camera)
 
     def defines(self) -> dict[str, object]:
-        """What shaders that read the G-buffer are told: which textures there are, and the constants."""
-        names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._attachments if a.channels}
-        return names | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+        """What shaders that read the G-buffer are told: which textures there are and how, and the constants."""
+        names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._holding}
+        names["GBUFFER_HAS_NORMAL"] = any("normal" in a.channels for a in self._holding)
+        return names | self._formats | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+
+    @property
+    def place(self) -> dict[str, Any]:
+        """Uniforms for shaders that read it and that change with the sample drawn: where a depth's pixel lies."""
+        if "DEPTH_BITS" not in self._formats:
+            return {}
+        camera = self._scene.camera
+        return {
+            "depth_range": np.array([camera.near, camera.far]),
+            "depth_row": -view_matrix(camera)[2],
+            "world_from_pixel": world_from_pixel(camera, self._size, self.offset),
+        }
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
@@ -172,7 +173,7 @@ class GBuffer:
     def _draw_shapes(self, matrix: np.ndarray, excluded: Collection[int]) -> None:
         self._device.gl.enable_only(self._device.gl.DEPTH_TEST)
         for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix})
+            set_uniforms(program, {"view_projection": matrix} | self.place)
         for batch, draw in zip(self._geometry.batches, self._draws, strict=True):
             if batch.shape in excluded:
                 continue
@@ -187,9 +188,7 @@ class GBuffer:
             offset: where in the pixels they were sampled; None: where they project to tells.
         """
         self.offset = _sampled_at(points, self._scene.camera, self._size) if offset is None else offset
-        for attachment in self._attachments:
-            if not attachment.channels:
-                continue
+        for attachment in self._holding:
             width, height = self._size
             data = np.zeros((height, width, attachment.components), np.float32)
             for name in attachment.channels:
@@ -198,6 +197,23 @@ class GBuffer:
                 data[..., 3] = 1.0
             data[~points.hit] = 0.0
             self.textures[attachment.name].write(np.ascontiguousarray(data[::-1]), alignment=1)
+
+    def store(self, other: "GBuffer") -> None:
+        """Hold what another one of the same size holds, in this one's formats."""
+        self.offset = other.offset
+        if other not in self._stores:
+            fragment = source("stored.frag", other.defines() | self._formats).text
+            fragment = fragment.replace("ATTACHMENTS", declarations(self._holding))
+            program = self._device.program(Source(fragment.replace("    WRITES", writes(self._holding))))
+            target = self._device.framebuffer([self.textures[a.name] for a in self._holding])
+            self._stores[other] = program, self._device.fullscreen(program), target
+        program, vertices, target = self._stores[other]
+        target.use()
+        target.clear()
+        self._device.gl.enable_only(self._device.gl.NOTHING)
+        set_uniforms(program, {"viewer": viewer(self._scene.camera)} | self.place | other.place)
+        bind(program, {f"gbuffer_{name}": texture for name, texture in other.textures.items()})
+        self._device.draw(vertices, 3)
 
     def channel(self, name: str) -> np.ndarray:
         """A channel's values, (H, W) or (H, W, 3) float32, row 0 at the top."""
@@ -225,24 +241,30 @@ class GBuffer:
         slots = usable_slots(batch)
         key = (batch.has, slots, material.alpha_mode, material.double_sided)
         if key not in self._programs:
-            defines: dict[str, object] = {f"HAS_{name.upper()}": True for name in batch.has}
+            defines = self._formats | {f"HAS_{name.upper()}": True for name in batch.has}
             defines |= {f"TEXTURE_{slot[0].upper()}": True for slot in slots}
             defines["ALPHA_MASK"] = material.alpha_mode == "mask"
             defines["DOUBLE_SIDED"] = material.double_sided
             fragment = source("gbuffer.frag", defines).text
             fragment = fragment.replace("TEXTURE_DECLARATIONS", "\n".join(map(texture_declaration, slots)))
-            fragment = fragment.replace("ATTACHMENTS", self._declarations()).replace("    WRITES", self._writes())
+            fragment = fragment.replace("ATTACHMENTS", declarations(self._attachments)).replace(
+                "    WRITES", writes(self._attachments)
+            )
             program = self._device.program(Source(fragment), source("gbuffer.vert", defines))
             self._programs[key] = program
         return self._programs[key]
 
-    def _declarations(self) -> str:
-        return "\n".join(
-            f"layout(location = {i}) out vec{a.components} out_{a.name};" for i, a in enumerate(self._attachments)
-        )
 
-    def _writes(self) -> str:
-        return "\n".join(f"    out_{a.name} = {a.expression};" for a in self._attachments)
+def declarations(attachments: Sequence[layout.Attachment]) -> str:
+    """GLSL that declares a shader's outputs."""
+    types = ("float", "vec2", "vec3", "vec4")
+    lines = [f"layout(location = {i}) out {types[a.components - 1]} out_{a.name};" for i, a in enumerate(attachments)]
+    return "\n".join(lines)
+
+
+def writes(attachments: Sequence[layout.Attachment]) -> str:
+    """GLSL that fills them."""
+    return "\n".join(f"    out_{a.name} = {a.expression};" for a in attachments)
 
 
 def _sampled_at(points: SurfacePoints, camera: Camera, size: tuple[int, int]) -> tuple[float, float]:

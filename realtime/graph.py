@@ -1,6 +1,6 @@
 """The frame graph, compiled in plain Python: which effects draw what, in which order, and what is left out and why."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -76,6 +76,16 @@ class Plan:
     true_scene: Scene
     missing: Mapping[str, str]
 
+    def stored(self, exact: Collection[str] = ()) -> dict[str, str]:
+        """The formats of the G-buffer's channels that effects ask for, but for those of the effects in `exact`."""
+        asking = [entry for name, entry in self.effects.items() if name not in exact]
+        formats = [item for effect, knobs in asking for item in effect.stores(knobs).items()]
+        return {channel: name for channel, name in formats if name != "fp32"}
+
+    def is_storage(self, player: str) -> bool:
+        """Whether a player is an effect that only stores the G-buffer's channels otherwise."""
+        return player in self.effects and bool(self.effects[player][0].stores(self.effects[player][1]))
+
     def with_true_surface(self) -> "Plan":
         """The same frame of the true surface, without what the effect that draws another one would draw."""
         others = {name for name, (effect, _) in self.effects.items() if effect.surface is not None}
@@ -138,11 +148,12 @@ def compile_plan(scene: Scene, known: Mapping[str, Effect], choice: Choice | Non
 
 
 def _missing(scene: Scene, known: Mapping[str, Effect], choice: Choice) -> dict[str, str]:
-    """The terms that the frame does not have: those of the scene, but for a surface that an effect is asked to draw."""
+    """The terms that the frame lacks: the scene's, but for those in which an effect is asked to vary the G-buffer."""
     missing = missing_terms(scene)
-    asked = [known[name] for name in known if _is_asked(name, choice) and name not in choice.without]
-    if any("surface" in effect.terms and not effect.unneeded(scene) for effect in asked):
-        del missing["surface"]
+    for effect in (known[name] for name in known if _is_asked(name, choice) and name not in choice.without):
+        for term in effect.terms:
+            if TERMS[term].scope == "gbuffer" and not effect.unneeded(scene):
+                missing.pop(term, None)
     return missing
 
 

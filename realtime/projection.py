@@ -25,6 +25,24 @@ def projection_matrix(camera: Camera, size: tuple[int, int], offset: tuple[float
     return shift @ clip_from_camera(camera, size)
 
 
+def world_from_pixel(camera: Camera, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
+    """(4, 4) float64: world space from (x·z, y·z, z, 1), or from (x, y, z, 1) where rays are parallel.
+
+    Args:
+        size: width and height in pixels; x and y count them from the bottom left, z is the distance along the view.
+        offset: where in the pixel the scene was sampled, in pixels right and down from its centre.
+    """
+    width, height = size
+    scale = clip_from_camera(camera, size)
+    half_width, half_height = 1 / scale[0, 0], 1 / scale[1, 1]  # at distance 1, where rays spread
+    corner = (2 * offset[0] / width - 1) * half_width, (-2 * offset[1] / height - 1) * half_height
+    to_camera = np.zeros((4, 4))
+    to_camera[0, 0], to_camera[1, 1] = 2 * half_width / width, 2 * half_height / height
+    to_camera[2, 2], to_camera[3, 3] = -1, 1
+    to_camera[:2, 2 if camera.yfov is not None else 3] = corner
+    return camera.matrix @ to_camera
+
+
 def viewer(camera: Camera) -> np.ndarray:
     """(4,) what gives shaders the direction to the viewer: position and 1, or for parallel rays direction and 0."""
     if camera.yfov is not None:

@@ -1,6 +1,7 @@
 """Executes a plan: the frame as it is shown, its time, and the terms one by one for the measurement."""
 
-from dataclasses import dataclass, field
+from collections.abc import Collection
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -69,7 +70,7 @@ class Renderer:
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
-        gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance)
+        gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance, stored=plan.stored())
         self.baking = Baking(device)
         self._scattered = (
             FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
@@ -93,6 +94,7 @@ class Renderer:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
+        self._formats: dict[tuple, GBuffer] = {}
         self._held: dict[str, int | None] = {}  # effect to the light whose map its pass for captures holds
         self._sum = self._accumulator() if len(self.offsets) > 1 else None
 
@@ -170,12 +172,38 @@ class Renderer:
                 times.append(clock.measure(action))
         return Recording(whole, passes, self._coverage if self._sum else "", clock.method, clock.disagreement)
 
-    def capture(self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True) -> Capture:
-        """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them."""
+    def capture(
+        self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True, exact: Collection[str] = ()
+    ) -> Capture:
+        """The surface points at a sub-pixel offset, and (where `terms`) every effect's buffer at them.
+
+        Args:
+            exact: effects whose formats are not used: what they store is kept in floats.
+        """
         gbuffer = self._capture_stage[0].gbuffer
         gbuffer.draw(offset)
-        points = self._points(gbuffer)
+        points = self._stored(self._points(gbuffer), exact)
         return self._shaded(points) if terms else Capture(points, {}, {}, {})
+
+    def stored(self, points: SurfacePoints, offset: tuple[float, float], exact: Collection[str] = ()) -> SurfacePoints:
+        """Given points as the frame's G-buffer would give them back, had it been sampled at that offset."""
+        if not self.plan.stored(exact):
+            return points
+        self._capture_stage[0].gbuffer.load(points, offset)
+        return self._stored(points, exact)
+
+    def _stored(self, points: SurfacePoints, exact: Collection[str]) -> SurfacePoints:
+        """The points that the G-buffer for captures holds, once they were stored in the frame's formats."""
+        stored = self.plan.stored(exact)
+        if not stored:
+            return points
+        floats, key = self._capture_stage[0].gbuffer, tuple(stored.items())
+        if key not in self._formats:
+            arguments = self.device, self._geometry, self.plan.scene, self.size, frozenset(CHANNELS), floats.radiance
+            self._formats[key] = GBuffer(*arguments, stored=stored)
+        self._formats[key].store(floats)
+        floats.store(self._formats[key])
+        return replace(points, **self._channels(floats))
 
     def shade(self, points: SurfacePoints, offset: tuple[float, float] | None = None) -> Capture:
         """Every effect's buffer at given points, such as a capture's at that offset with other parameters."""
@@ -233,16 +261,20 @@ class Renderer:
         verdict = images[step.writes[0]][..., 3].astype(np.int32)
         return {term: image[..., :3].copy() for term, image in images.items()}, verdict
 
-    def _points(self, gbuffer: GBuffer) -> SurfacePoints:
-        position = gbuffer.channel("position")
-        hit = self.device.read(gbuffer.textures["position"])[..., 3] > 0
-        identity = self.device.read(gbuffer.textures["identity"]).astype(np.int32)
+    def _channels(self, gbuffer: GBuffer) -> dict[str, np.ndarray]:
+        """The channels, and the direction to the viewer from where the points lie."""
+        channels = {name: gbuffer.channel(name) for name in CHANNELS}
+        position = channels["position"]
         eye = viewer(self.plan.scene.camera)
         view = (eye[:3] - eye[3] * position.astype(np.float64)).astype(np.float64)
         view /= np.maximum(np.linalg.norm(view, axis=-1, keepdims=True), 1e-300)
+        return channels | {"view": np.broadcast_to(view, position.shape).astype(np.float32)}
+
+    def _points(self, gbuffer: GBuffer) -> SurfacePoints:
+        hit = self.device.read(gbuffer.textures["position"])[..., 3] > 0
+        identity = self.device.read(gbuffer.textures["identity"]).astype(np.int32)
         return SurfacePoints(
-            **{name: gbuffer.channel(name) for name in CHANNELS},
-            view=np.broadcast_to(view, position.shape).astype(np.float32),
+            **self._channels(gbuffer),
             emission=self.device.read(gbuffer.radiance)[..., :3].copy(),
             shape=np.where(hit, identity[..., 0], -1).astype(np.int32),
             triangle=np.where(hit, identity[..., 1] + 4096 * identity[..., 2], -1).astype(np.int32),

@@ -10,7 +10,7 @@ from .graph import FACTORS, Step
 from .light_bounds import Rectangle, reached
 from .shaders import Source, source
 from .stage import Stage
-from .uniforms import Uniforms, bind
+from .uniforms import Uniforms, bind, set_uniforms
 
 VISIBILITIES = tuple(FACTORS.values())
 
@@ -79,6 +79,7 @@ class ShadingPass:
         if step not in self._uniforms:
             self._uniforms[step] = Uniforms(program, self._values(step))
         self._uniforms[step].write()
+        set_uniforms(program, self._stage.gbuffer.place)
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
         if self._stage.scattered is not None:

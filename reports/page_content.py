@@ -150,8 +150,13 @@ def _effect_row(
         "time": timed(effect.time_ms),
         "baked": None if effect.bake_ms is None else show_number(effect.bake_ms),
         "share": measured(share) if share else None,
-        "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()],
+        "knobs": [f"{name} {_knob(value)}" for name, value in effect.knobs.items()] + stored_bytes(effect),
     }
+
+
+def stored_bytes(effect: Effect) -> list[str]:
+    """What it stores takes, in words; nothing where it stores none."""
+    return [] if effect.bytes_per_pixel is None else [f"{effect.bytes_per_pixel} bytes per pixel"]
 
 
 def _shares(results: Results, metric: str) -> dict[str, Measurement]:

@@ -65,6 +65,7 @@ class Effect:
         time_ms: None where the effect has no pass of its own.
         share: metric name to the effect's share of the image's error; empty where not measured.
         bake_ms: what was made once, before the first frame, took; None where nothing was.
+        bytes_per_pixel: what the G-buffer's channels that it stores take; None where it stores none.
     """
 
     effect: str
@@ -74,6 +75,7 @@ class Effect:
     time_ms: Timing | None = None
     share: Metrics = field(default_factory=dict)
     bake_ms: float | None = None
+    bytes_per_pixel: int | None = None
 
 
 @dataclass(frozen=True)

@@ -255,6 +255,7 @@ def _effect(node: _Node) -> Effect:
         time_ms=node.get("time_ms", None).maybe(_timing),
         bake_ms=node.get("bake_ms", None).maybe(_Node.number),
         share=_metrics(node.get("share", {})),
+        bytes_per_pixel=node.get("bytes_per_pixel", None).maybe(_Node.integer),
     )
 
 

@@ -95,7 +95,8 @@ def comparison_table(results: Results) -> Table:
     for effect in results.effects:
         cells = [number(effect.metrics.get(name)) for name in columns]
         cells += [_percent(shares.get(effect.effect))] if shares else []
-        terms = Text("\n".join(effect.terms))
+        stored = [] if effect.bytes_per_pixel is None else [f"{effect.bytes_per_pixel} bytes per pixel"]
+        terms = Text("\n".join([*effect.terms, *stored]))
         table.add_row(
             Text(effect.effect), terms, bare(effect.metrics.get("rmse")), *cells, milliseconds(effect.time_ms)
         )

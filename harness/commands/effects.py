@@ -41,6 +41,7 @@ def description(effect) -> dict[str, Any]:
         "summary": effect.summary,
         "citation": effect.citation,
         "knobs": knobs,
+        "bytes_per_pixel": effect.bytes_per_pixel(effect.settings({})),
     }
 
 
@@ -52,7 +53,10 @@ def markdown(effects) -> str:
     for effect in effects:
         lines += [f"## {effect.name}", "", effect.summary, ""]
         lines += [f"- approximates **{term}**: {TERMS[term].meaning}" for term in effect.terms]
-        lines += [f"- source: {effect.citation}", ""]
+        lines += [f"- source: {effect.citation}"]
+        if stored := effect.bytes_per_pixel(effect.settings({})):
+            lines += [f"- what it stores takes {stored} bytes per pixel at its defaults"]
+        lines += [""]
         if effect.knobs:
             lines += ["| knob | default | unit | range | what it does |", "| --- | --- | --- | --- | --- |"]
             for knob in effect.knobs:
@@ -87,6 +91,8 @@ def _explain(effect) -> None:
     for term in effect.terms:
         out.print(f"approximates [bold]{term}[/bold]: {TERMS[term].meaning}")
     out.print(f"source: {effect.citation}\n")
+    if stored := effect.bytes_per_pixel(effect.settings({})):
+        out.print(f"What it stores takes {stored} bytes per pixel at its defaults.\n")
     if not effect.knobs:
         out.print("It has no knobs.")
         return

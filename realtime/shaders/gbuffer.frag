@@ -1,6 +1,9 @@
 // The G-buffer: what the surface seen by a pixel is made of (deferred shading, Saito & Takahashi 1990).
 #include "textures.glsl"
 #include "normal_map.glsl"
+#ifdef STORED_FORMATS
+#include "stored.glsl"
+#endif
 uniform vec4 viewer;            // xyz: position, w = 1; or direction, w = 0
 uniform vec4 base_color_factor; // a: alpha
 uniform float metallic_factor;

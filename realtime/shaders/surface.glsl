@@ -1,14 +1,12 @@
 // What full-screen passes know of the surface behind a pixel; members are there where the G-buffer holds them.
-uniform sampler2D gbuffer_position;
-#ifdef GBUFFER_NORMAL_ROUGHNESS
-uniform sampler2D gbuffer_normal_roughness;
+#ifdef STORED_FORMATS
+#include "stored.glsl"
 #endif
-#ifdef GBUFFER_BASE_COLOR_METALLIC
-uniform sampler2D gbuffer_base_color_metallic;
-#endif
-#ifdef GBUFFER_SPECULAR_OCCLUSION
-uniform sampler2D gbuffer_specular_occlusion;
-#endif
+// Of these a program has only those that it reads.
+uniform sampler2D gbuffer_position, gbuffer_depth;
+uniform sampler2D gbuffer_normal_roughness, gbuffer_normal, gbuffer_octahedral_normal, gbuffer_roughness;
+uniform sampler2D gbuffer_base_color_metallic, gbuffer_base_color, gbuffer_metallic;
+uniform sampler2D gbuffer_specular_occlusion, gbuffer_parameters;
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -22,18 +20,24 @@ struct Surface {
     float occlusion;
 };
 
-// False where the pixel shows no surface, or one seen from the dark side of its normal (n·v ≤ 0): there nothing is
-// reflected (the one rule for back-facing directions, scenes/optics/material.py).
-bool load_surface(ivec2 pixel, out Surface surface) {
+// False where the pixel shows no surface.
+bool fetch_surface(ivec2 pixel, out Surface surface) {
+    bool seen = false;
+#ifdef GBUFFER_POSITION
     vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    bool seen = position.w > 0.0;
+    seen = position.w > 0.0;
     surface.position = position.xyz;
-    surface.view = normalize(viewer.xyz - viewer.w * position.xyz);
+#endif
+#ifdef GBUFFER_DEPTH
+    vec4 depth = texelFetch(gbuffer_depth, pixel, 0);
+    seen = any(notEqual(depth.rgb, vec3(0.0)));
+    surface.position = at_depth(vec2(pixel) + 0.5, unpack_depth(depth));
+#endif
+    surface.view = normalize(viewer.xyz - viewer.w * surface.position);
 #ifdef GBUFFER_NORMAL_ROUGHNESS
     vec4 normal_roughness = texelFetch(gbuffer_normal_roughness, pixel, 0);
     surface.normal = normal_roughness.xyz;
     surface.roughness = normal_roughness.w;
-    seen = seen && dot(surface.normal, surface.view) > 0.0;
 #endif
 #ifdef GBUFFER_BASE_COLOR_METALLIC
     vec4 base_color_metallic = texelFetch(gbuffer_base_color_metallic, pixel, 0);
@@ -44,6 +48,32 @@ bool load_surface(ivec2 pixel, out Surface surface) {
     vec2 specular_occlusion = texelFetch(gbuffer_specular_occlusion, pixel, 0).rg;
     surface.specular = specular_occlusion.r;
     surface.occlusion = specular_occlusion.g;
+#endif
+#ifdef GBUFFER_NORMAL
+    surface.normal = texelFetch(gbuffer_normal, pixel, 0).xyz;
+    surface.normal *= inversesqrt(max(dot(surface.normal, surface.normal), 1e-30));
+#endif
+#ifdef GBUFFER_OCTAHEDRAL_NORMAL
+    surface.normal = unpack_normal(texelFetch(gbuffer_octahedral_normal, pixel, 0));
+#endif
+#ifdef GBUFFER_BASE_COLOR
+    surface.base_color = texelFetch(gbuffer_base_color, pixel, 0).rgb;
+#ifdef BASE_COLOR_IN_SRGB
+    surface.base_color = srgb_decode(surface.base_color);
+#endif
+#endif
+#ifdef GBUFFER_ROUGHNESS
+    surface.roughness = texelFetch(gbuffer_roughness, pixel, 0).r;
+#endif
+#ifdef GBUFFER_METALLIC
+    surface.metallic = texelFetch(gbuffer_metallic, pixel, 0).r;
+#endif
+#ifdef GBUFFER_PARAMETERS
+    vec4 parameters = texelFetch(gbuffer_parameters, pixel, 0);
+    surface.roughness = parameters.r;
+    surface.metallic = parameters.g;
+    surface.specular = parameters.b;
+    surface.occlusion = parameters.a;
 #endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;
@@ -59,6 +89,16 @@ bool load_surface(ivec2 pixel, out Surface surface) {
 #endif
 #ifdef CONSTANT_OCCLUSION
     surface.occlusion = CONSTANT_OCCLUSION;
+#endif
+    return seen;
+}
+
+// False also where the surface is seen from the dark side of its normal (n·v ≤ 0): there nothing is reflected (the one
+// rule for back-facing directions, scenes/optics/material.py).
+bool load_surface(ivec2 pixel, out Surface surface) {
+    bool seen = fetch_surface(pixel, surface);
+#ifdef GBUFFER_HAS_NORMAL
+    seen = seen && dot(surface.normal, surface.view) > 0.0;
 #endif
     return seen;
 }

@@ -7,6 +7,7 @@ from lightmeter.realtime.ambient.twin import TWINS as AMBIENT_TWINS
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.environments.twin import TWINS as ENVIRONMENT_TWINS
 from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
+from lightmeter.realtime.packing_twins import TWINS as PACKING_TWINS
 from lightmeter.realtime.shaders import SHARED
 from lightmeter.realtime.shadows.twin import TWINS as SHADOW_TWINS
 from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS
@@ -16,7 +17,15 @@ from lightmeter.realtime.twin import Twin
 def declared_twins() -> list[tuple[Path, Twin]]:
     """(folder, twin) of every declaration."""
     found = [
-        (SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS, *AMBIENT_TWINS, *ENVIRONMENT_TWINS, *REFLECTION_TWINS)
+        (SHARED, twin)
+        for twin in (
+            *SHARED_TWINS,
+            *SHADOW_TWINS,
+            *AMBIENT_TWINS,
+            *ENVIRONMENT_TWINS,
+            *PACKING_TWINS,
+            *REFLECTION_TWINS,
+        )
     ]
     for effect in effects().values():
         if (effect.folder / "twin.py").is_file():

@@ -31,6 +31,16 @@ NOT_TWINNED = {
     "ltc_area_light.glsl": {"cut_side", "add_side"},  # hand structures on: test_ltc.py
     "split_sum.glsl": {"irradiance"},  # chooses which to look up: test_environments.py
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
+    "stored.glsl": {  # packing.glsl's functions in the formats that are chosen: test_gbuffer_formats.py
+        "depth_of",
+        "at_depth",
+        "pack_depth",
+        "unpack_depth",
+        "normal_codes",
+        "from_normal_codes",
+        "pack_normal",
+        "unpack_normal",
+    },
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py

@@ -94,6 +94,46 @@ def test_corners_are_weighted_by_their_angle():
     np.testing.assert_allclose(mesh.tangents[[0, 3, 6], :3], [expected] * 3, atol=1e-6)
 
 
+REFERENCE = np.array(
+    [  # vertex, x, y, z, w
+        (0, -0.7713623, 0.46996996, 0.42910182, -1),
+        (1, -0.91939831, 0.3476997, 0.18387964, -1),
+        (1, 0.93727469, 0.29389924, -0.18745494, 1),
+        (2, 0.91790789, 0.25326252, 0.30545574, 1),
+        (3, -0.84496152, 0.48323163, 0.2291881, -1),
+        (4, -0.91985571, 0.3813192, -0.09198559, -1),
+        (4, 0.95545727, 0.27923506, 0.09554575, 1),
+        (5, 0.82292217, 0.22717522, 0.5207597, 1),
+        (6, -0.88487983, 0.4657262, -0.00931449, -1),
+        (7, -0.85236579, 0.39651999, -0.34094629, -1),
+        (7, 0.89893079, 0.25026235, 0.35957229, 1),
+        (8, 0.7145797, 0.20491786, 0.66886806, 1),
+    ]
+)
+"""What the reference implementation gives for `saddle()`: Mikkelsen's `mikktspace.c` as ported in mikktspace 1.1.1
+(npm), with w negated, since a glTF image's v points down."""
+
+
+def saddle() -> Mesh:
+    """Eight triangles of z = 0.3 x² + 0.4 xy under a sheared, bent image that is mirrored at x = 0."""
+    x, y = (values.ravel() for values in np.meshgrid([-1.0, 0.0, 0.75], [-0.5, 0.25, 1.0]))
+    normals = np.stack([-0.6 * x - 0.4 * y, -0.4 * x, np.ones(9)], axis=1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    uv = np.stack([np.abs(x) + 0.3 * y + 0.2 * y * y, 0.4 * x * x - y], axis=1)
+    triangles = [[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 5, 4], [3, 4, 7], [3, 7, 6], [4, 5, 8], [4, 8, 7]]
+    return Mesh(np.stack([x, y, 0.3 * x * x + 0.4 * x * y], axis=1), triangles, normals, (uv,))
+
+
+def test_tangents_are_those_of_the_reference_implementation():
+    """The port works in float32: a unit vector of up to six weighted ones, each of some ten roundings."""
+    given = saddle()
+    mesh = with_tangents(given)
+    found = np.unique(np.c_[given.triangles.ravel(), mesh.tangents[mesh.triangles].reshape(-1, 4)], axis=0)
+    assert len(found) == len(REFERENCE)
+    np.testing.assert_array_equal(found[:, [0, 4]], REFERENCE[:, [0, 4]])
+    np.testing.assert_allclose(found[:, 1:4], REFERENCE[:, 1:4], atol=16 * 2.0**-24)
+
+
 def test_without_a_gradient_the_frame_of_duff_et_al_takes_its_place():
     mesh = with_tangents(Mesh(SQUARE, TWO, UP, (np.zeros((4, 2)),)))
     np.testing.assert_allclose(mesh.tangents, [[1, 0, 0, 1]] * 4, atol=1e-6)

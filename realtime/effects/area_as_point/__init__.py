@@ -9,11 +9,7 @@ from lightmeter.scenes.emitters import emitter
 from lightmeter.scenes.model import AreaLight, Light, Scene
 
 from ...effect import Effect, Knob, Knobs
-
-
-def emissive(_scene: Scene, light: Light) -> bool:
-    """Every emissive surface."""
-    return isinstance(light, AreaLight)
+from ...emissive import emissive
 
 
 def uniforms(scene: Scene, knobs: Knobs, light: Light | None) -> dict[str, Any]:

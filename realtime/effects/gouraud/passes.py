@@ -82,4 +82,4 @@ def _as_pixels(stage: Stage, size: tuple[int, int]) -> Stage:
     geometry = Geometry(device, replace(stage.scene, shapes=()))
     scene = replace(stage.scene, environment=None)
     gbuffer = GBuffer(device, geometry, scene, size, frozenset(CHANNELS), device.target(size))
-    return Stage(device, stage.scene, geometry, gbuffer, size)
+    return replace(stage, geometry=geometry, gbuffer=gbuffer, size=size)

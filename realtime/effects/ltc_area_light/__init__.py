@@ -8,13 +8,9 @@ from lightmeter.scenes.emitters import emitter, shines_back
 from lightmeter.scenes.model import AreaLight, Light, Scene
 
 from ...effect import Effect, Knob, Knobs
+from ...emissive import emissive
 from .outline import outline
 from .table import fitted, tables
-
-
-def emissive(_scene: Scene, light: Light) -> bool:
-    """Every emissive surface."""
-    return isinstance(light, AreaLight)
 
 
 def most_corners(knobs: Knobs) -> int:

@@ -1,14 +1,7 @@
 """An emissive surface as many point lights on it: what converges to the truth, and what it costs."""
 
-from lightmeter.scenes.model import AreaLight, Light, Scene
-
 from ...effect import Effect, Knob
-
-
-def emissive(_scene: Scene, light: Light) -> bool:
-    """Every emissive surface."""
-    return isinstance(light, AreaLight)
-
+from ...emissive import emissive
 
 EFFECT = Effect(
     name="many_sample_light",

@@ -5,13 +5,9 @@ from typing import Any
 from lightmeter.scenes.model import AreaLight, Light, Scene
 
 from ...effect import Effect, Knob, Knobs
+from ...emissive import emissive
 from ...shadows.knobs import RESOLUTION, biases, with_default
 from .rectangle import half_sides
-
-
-def emissive(_scene: Scene, light: Light) -> bool:
-    """Every emissive surface; other lights have no penumbra."""
-    return isinstance(light, AreaLight)
 
 
 def uniforms(scene: Scene, _knobs: Knobs, light: Light | None) -> dict[str, Any]:

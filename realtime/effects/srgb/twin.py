@@ -1,4 +1,4 @@
-"""Float64 twin of srgb.glsl."""
+"""Float64 twin of srgb.glsl, and of the encoding curve that it shares."""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ def encode(linear: np.ndarray, _knobs: Knobs) -> np.ndarray:
 
 TWINS = (
     Twin(
-        "srgb.glsl",
+        "srgb_curve.glsl",
         "srgb_encode",
         "vec3",
         (

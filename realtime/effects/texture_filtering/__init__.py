@@ -1,11 +1,20 @@
 """Texture lookup by the hardware's filters: mipmaps, nearest or bilinear, anisotropy."""
 
+from lightmeter.scenes.model import Scene
+
 from ...effect import Effect, Knob
+
+
+def unneeded(scene: Scene) -> str:
+    """Why the scene does not need it."""
+    return "" if any(shape.material.textures for shape in scene.shapes) else "the scene has no textures"
+
 
 EFFECT = Effect(
     name="texture_filtering",
     terms=("material",),
     summary="Textures are looked up with their samplers' filters and mipmaps, in 8 bits where the file has 8.",
+    unneeded=unneeded,
     citation="Williams 1983, Pyramidal Parametrics (mipmaps); glTF 2.0, 3.8.4 (samplers)",
     knobs=(
         Knob(
