@@ -75,13 +75,14 @@ class ScreenOcclusion:
         framebuffer.use()
         device.gl.enable_only(device.gl.NOTHING)
         self._told.write()
-        set_uniforms(self._technique, {"view_projection": gbuffer.view_projection})
+        set_uniforms(self._technique, {"view_projection": gbuffer.view_projection} | gbuffer.place)
         bind(self._technique, buffers)
         device.draw(self._vertices, 3)
         if self._blurred:
             (framebuffer, _), program, told, vertices = self._blurred
             framebuffer.use()
             told.write()
+            set_uniforms(program, gbuffer.place)
             bind(program, buffers | {"occlusion_buffer": texture})
             device.draw(vertices, 3)
 

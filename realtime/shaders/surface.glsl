@@ -20,19 +20,31 @@ struct Surface {
     float occlusion;
 };
 
-// False where the pixel shows no surface.
-bool fetch_surface(ivec2 pixel, out Surface surface) {
-    bool seen = false;
-#ifdef GBUFFER_POSITION
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    seen = position.w > 0.0;
-    surface.position = position.xyz;
+// How many pixels there are, across and upright.
+ivec2 gbuffer_size() {
+#ifdef GBUFFER_DEPTH
+    return textureSize(gbuffer_depth, 0);
+#else
+    return textureSize(gbuffer_position, 0);
 #endif
+}
+
+// Where that lies which a pixel shows; w = 0 where it shows no surface.
+vec4 fetch_place(ivec2 pixel) {
 #ifdef GBUFFER_DEPTH
     vec4 depth = texelFetch(gbuffer_depth, pixel, 0);
-    seen = any(notEqual(depth.rgb, vec3(0.0)));
-    surface.position = at_depth(vec2(pixel) + 0.5, unpack_depth(depth));
+    bool seen = any(notEqual(depth.rgb, vec3(0.0)));
+    return vec4(at_depth(vec2(pixel) + 0.5, unpack_depth(depth)), seen ? 1.0 : 0.0);
+#else
+    return texelFetch(gbuffer_position, pixel, 0);
 #endif
+}
+
+// False where the pixel shows no surface.
+bool fetch_surface(ivec2 pixel, out Surface surface) {
+    vec4 place = fetch_place(pixel);
+    bool seen = place.w > 0.0;
+    surface.position = place.xyz;
     surface.view = normalize(viewer.xyz - viewer.w * surface.position);
 #ifdef GBUFFER_NORMAL_ROUGHNESS
     vec4 normal_roughness = texelFetch(gbuffer_normal_roughness, pixel, 0);

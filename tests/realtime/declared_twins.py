@@ -6,8 +6,8 @@ from pathlib import Path
 from lightmeter.realtime.ambient.twin import TWINS as AMBIENT_TWINS
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.environments.twin import TWINS as ENVIRONMENT_TWINS
-from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
 from lightmeter.realtime.packing_twins import TWINS as PACKING_TWINS
+from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
 from lightmeter.realtime.shaders import SHARED
 from lightmeter.realtime.shadows.twin import TWINS as SHADOW_TWINS
 from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS

@@ -188,11 +188,14 @@ def test_a_changed_constant_is_noticed(device, folder, twin):
         assert share > 1, f"{number} in {twin.function} may change unnoticed"
 
 
+LOOK_UPS = "texelFetch", "texture", "textureLod", "textureSize", "fetch_place"
+
+
 def readers(definitions: dict[str, str]) -> set[str]:
     """The functions that read a texture, by themselves or by calling one of these that does."""
     found: set[str] = set()
     while True:
-        calls = "|".join(("texelFetch", "texture", "textureLod", *found))
+        calls = "|".join((*LOOK_UPS, *found))
         more = {n for n, text in definitions.items() if re.search(rf"\b(?:{calls})\(", text.partition("{")[2])}
         if more == found:
             return found

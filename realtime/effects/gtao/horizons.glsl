@@ -49,12 +49,12 @@ vec3 into_slice(vec3 offset, vec3 across, vec3 normal) {
 // The cosine of the horizon on one side of a slice, whose plane is normal to `across`.
 float horizon_towards(vec2 line, vec3 across, float reach, float shift, ivec2 pixel, Surface surface, float lowest) {
     float horizon = lowest, pixels = length(line);
-    ivec2 size = textureSize(gbuffer_position, 0);
+    ivec2 size = gbuffer_size();
     for (int i = 0; i < STEPS; ++i) {
         float part = (float(i) + shift) / float(STEPS);
         ivec2 there = ivec2(floor(vec2(pixel) + 0.5 + max(part * part * reach, 1.0 / pixels) * line));
         if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) break;
-        vec4 shown = texelFetch(gbuffer_position, there, 0);
+        vec4 shown = fetch_place(there);
         vec3 offset = into_slice(shown.xyz - surface.position, across, surface.normal);
         float away = length(offset);
         if (shown.w == 0.0 || away == 0.0) continue;

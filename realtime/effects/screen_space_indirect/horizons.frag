@@ -15,7 +15,7 @@ const float HALF_TURN = 3.14159265358979;
 vec3 gather_side(Surface surface, vec2 way, float side, float gamma, float shift) {
     vec3 sum = vec3(0.0);
     float horizon = gamma + side * 0.5 * HALF_TURN;
-    ivec2 size = textureSize(gbuffer_position, 0);
+    ivec2 size = gbuffer_size();
     float farthest = min(reach, edge_distance(gl_FragCoord.xy, side * way, vec2(size)));
     for (int i = 0; i < STEPS; ++i) {
         float distant = max(farthest * step_share(float(i) + shift, float(STEPS)), float(i + 1));
@@ -23,7 +23,7 @@ vec3 gather_side(Surface surface, vec2 way, float side, float gamma, float shift
         if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, size))) break;
         Surface other;
         bool front = load_surface(place, other);
-        if (texelFetch(gbuffer_position, place, 0).w == 0.0) continue;
+        if (fetch_place(place).w == 0.0) continue;
         vec3 offset = other.position - surface.position;
         float square = dot(offset, offset);
         if (square == 0.0) continue;

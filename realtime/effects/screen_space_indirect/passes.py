@@ -34,8 +34,9 @@ class Passes:
 
     def draw(self, _light: int | None) -> None:
         """Gather what is lit so far."""
-        textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
-        self._pass.draw(self._framebuffer, textures | {"scattered_light": self._scattered})
+        gbuffer = self._stage.gbuffer
+        textures = {f"gbuffer_{name}": texture for name, texture in gbuffer.textures.items()}
+        self._pass.draw(self._framebuffer, textures | {"scattered_light": self._scattered}, values=gbuffer.place)
 
     def defines(self, _light: int | None) -> dict[str, object]:
         """Nothing beyond the effect's own."""

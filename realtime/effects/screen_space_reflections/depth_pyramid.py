@@ -1,21 +1,23 @@
 """The least depths of what the camera sees, over ever larger squares of pixels (Uludag 2014)."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ...shaders import source
 from ...stage import Stage
-from ...uniforms import Uniforms, bind
+from ...uniforms import Uniforms, bind, set_uniforms
 
 MOST_LEVELS = 8
 """Squares of 128 pixels; a shader reads no more textures at once than this and a few."""
 
-NEAREST = """uniform sampler2D gbuffer_position;
+NEAREST = """#include "surface.glsl"
 uniform vec4 depth_plane;
 out float least;
 void main() {
-    vec4 position = texelFetch(gbuffer_position, ivec2(gl_FragCoord.xy), 0);
+    vec4 position = fetch_place(ivec2(gl_FragCoord.xy));
     least = position.w > 0.0 ? dot(depth_plane, vec4(position.xyz, 1.0)) : 3.4e38;
 }
 """
@@ -66,7 +68,7 @@ class DepthPyramid:
         beside = sizes[1][0] if len(sizes) > 1 else 0
         self.texture = device.target((width + beside, max(height, int(heights[-1]))), 1)
         self._target = device.framebuffer([self.texture])
-        defines = {"LEVELS": len(sizes)}
+        defines = stage.gbuffer.defines() | {"LEVELS": len(sizes)}
         self._passes = []
         for text in (NEAREST, COARSER, BESIDE):
             program = device.program(source(text, defines))
@@ -75,17 +77,21 @@ class DepthPyramid:
 
     def draw(self) -> None:
         """Build it from the G-buffer."""
-        position = self._stage.gbuffer.textures["position"]
-        self._draw(0, self._targets[0], {"gbuffer_position": position})
+        gbuffer = self._stage.gbuffer
+        textures = {f"gbuffer_{name}": texture for name, texture in gbuffer.textures.items()}
+        self._draw(0, self._targets[0], textures, gbuffer.place)
         for finer, target in zip(self._levels, self._targets[1:], strict=False):
             self._draw(1, target, {"finer": finer})
         self._draw(2, self._target, {"levels": self._levels})
 
-    def _draw(self, which: int, target: Any, textures: dict[str, Any]) -> None:
+    def _draw(
+        self, which: int, target: Any, textures: dict[str, Any], changing: Mapping[str, Any] = MappingProxyType({})
+    ) -> None:
         program, vertices, values = self._passes[which]
         device = self._stage.device
         target.use()
         device.gl.enable_only(device.gl.NOTHING)
         values.write()
+        set_uniforms(program, dict(changing))
         bind(program, textures)
         device.draw(vertices, 3)

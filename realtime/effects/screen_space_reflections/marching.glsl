@@ -10,7 +10,7 @@ const int OPEN = 4;   // it went on in sight, or its steps ended, and it met non
 int verdict = NONE;
 
 float scene_depth(ivec2 pixel) {
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
+    vec4 position = fetch_place(pixel);
     return position.w > 0.0 ? dot(depth_plane, vec4(position.xyz, 1.0)) : 3.4e38;
 }
 

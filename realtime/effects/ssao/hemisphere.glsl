@@ -24,7 +24,7 @@ float range_check(float depth_difference, float reach) {
 }
 
 vec4 occlusion(Surface surface, ivec2 pixel) {
-    ivec2 cell = (pixel / SCALE) & 3, size = textureSize(gbuffer_position, 0);
+    ivec2 cell = (pixel / SCALE) & 3, size = gbuffer_size();
     vec2 turn = rotations[4 * cell.y + cell.x];
     vec3 along = turn.x * camera_right + turn.y * camera_up;
     float hidden = 0.0;
@@ -34,7 +34,7 @@ vec4 occlusion(Surface surface, ivec2 pixel) {
         if (!screen_place(view_projection, surface.position + offset, where)) continue;
         ivec2 there = ivec2(floor(where * vec2(size)));
         if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) continue;
-        vec4 shown = texelFetch(gbuffer_position, there, 0);
+        vec4 shown = fetch_place(there);
         // Towards the viewer, from the point.
         float nearer = dot(shown.xyz - surface.position, camera_back);
         bool before = shown.w > 0.0 && nearer >= dot(offset, camera_back) + bias;
