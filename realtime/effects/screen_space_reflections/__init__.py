@@ -20,7 +20,7 @@ def uniforms(scene: Scene, knobs: Knobs, light: Light | None) -> dict[str, Any]:
 
 def defines(knobs: Knobs) -> dict[str, object]:
     """Counts, and the functions that are chosen."""
-    counts = {name.upper(): int(knobs[name]) for name in ("samples", "steps", "refinements")}
+    counts: dict[str, object] = {name.upper(): int(knobs[name]) for name in ("samples", "steps", "refinements")}
     chosen = {"MARCH": f"march_{knobs['march']}", "HIERARCHICAL": knobs["march"] == "hierarchical"}
     return counts | chosen | {"UNMET": {"none": "vec3(0.0)", "ambient": "ambient_radiance"}.get(str(knobs["fallback"]))}
 
