@@ -42,7 +42,7 @@ def test_one_document(run, tmp_path, command):
 
 def test_an_effect_is_described_with_its_knobs(run):
     (described,) = run("effects", "shadow_map", "--json").json
-    assert described.keys() == {"name", "terms", "summary", "citation", "knobs"}
+    assert described.keys() == {"name", "terms", "summary", "citation", "knobs", "bytes_per_pixel"}
     assert all(knob.keys() == {"name", "default", "unit", "range", "help"} for knob in described["knobs"])
 
 

@@ -1,13 +1,16 @@
 import dataclasses
+import io
 import json
 import math
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.results import Frame, Results
 from lightmeter.reports.results_json import ResultsError, from_json, to_json, write_json
+from lightmeter.reports.terminal import comparison_table
 
 from .synthetic_pairs import make_candidates, make_failed, make_results, make_shadows
 
@@ -15,6 +18,18 @@ from .synthetic_pairs import make_candidates, make_failed, make_results, make_sh
 def test_results_come_back_as_they_were() -> None:
     results = make_results()
     assert from_json(to_json(results)) == results
+
+
+def test_bytes_per_pixel_are_there_for_who_stores_something() -> None:
+    """In the file, and in the log's table."""
+    results = make_results()
+    storing = dataclasses.replace(results.effects[0], effect="packed_surface", bytes_per_pixel=10)
+    results = dataclasses.replace(results, effects=(storing, *results.effects[1:]))
+    assert from_json(to_json(results)) == results
+    assert [effect["bytes_per_pixel"] for effect in json.loads(to_json(results))["effects"][:2]] == [10, None]
+    console = Console(width=160, record=True, file=io.StringIO())
+    console.print(comparison_table(results))
+    assert console.export_text().count("bytes per pixel") == 1
 
 
 def test_candidates_come_back_as_they_were() -> None:
@@ -37,7 +52,8 @@ def test_document_has_the_stable_keys() -> None:
     assert set(document) >= {"schema", "device", "reference", "frame", "effects", "closure", "left_out", "nonfinite"}
     assert set(document["reference"]) == {"spp", "batches", "seconds", "cached"}
     assert set(document["frame"]["time_ms"]) == {"median", "mad", "frames"}
-    assert set(document["effects"][0]) == {"effect", "terms", "knobs", "metrics", "time_ms", "share", "bake_ms"}
+    keys = {"effect", "terms", "knobs", "metrics", "time_ms", "share", "bake_ms", "bytes_per_pixel"}
+    assert set(document["effects"][0]) == keys
     assert set(document["closure"]) == {"metrics", "bias"}
     assert set(document["nonfinite"]) >= {"frame", "effects"}
     assert document["frame"]["metrics"]["flip"]["floor"] == 0.0041
