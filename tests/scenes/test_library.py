@@ -25,6 +25,7 @@ NAMES = (
     "plane",
     "posts",
     "torus",
+    "window",
 )
 
 
