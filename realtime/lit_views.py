@@ -54,12 +54,24 @@ class LitViews:
             device, plan.scene, stage.geometry, self._gbuffer, size, stage.baking, plan, elsewhere=np.array(viewer)
         )
         passes = {name: ShadingPass(here, declared, knobs) for name, (declared, knobs) in effects.items()}
-        self._lighting = Lighting(here, steps, self._framebuffer, passes)
+        self._stage, self._lighting = here, Lighting(here, steps, self._framebuffer, passes)
 
     @property
     def position(self):
         """The texture of the points seen."""
         return self._gbuffer.textures["position"]
+
+    @property
+    def normal(self):
+        """The texture of the normals seen: 0 on backs that have none; None where no light asks for them."""
+        return self._gbuffer.textures.get("normal_roughness")
+
+    def move(self, viewer: np.ndarray) -> None:
+        """See from another place, with the same programs and textures."""
+        assert self._stage.elsewhere is not None
+        self._stage.elsewhere[:] = viewer
+        for shading in self._lighting.passes.values():
+            shading.forget_values()
 
     def draw(self, matrices: Sequence[np.ndarray], excluded: Collection[int] = ()) -> None:
         """Draw all views.

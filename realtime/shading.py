@@ -91,6 +91,10 @@ class ShadingPass:
         device.draw(vertices, 3)
         target.scissor = None
 
+    def forget_values(self) -> None:
+        """Tell the shaders everything anew, as the stage's viewer has moved."""
+        self._uniforms.clear()
+
     def _values(self, step: Step) -> dict[str, Any]:
         """What the step's shader is told; nothing of it changes from frame to frame."""
         scene = self._stage.scene

@@ -30,6 +30,7 @@ NAMES = (
     "posts",
     "tessellation",
     "torus",
+    "window",
 )
 
 
