@@ -23,6 +23,7 @@ from lightmeter.metrics.sequential import LEAST_COUNT, effective_count, squared_
 from lightmeter.object_errors import object_errors
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
+from lightmeter.ray_errors import ray_errors
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.display import display_transform
@@ -184,6 +185,7 @@ def compare(
         ),
         shadows=() if bad.total() else shadow_errors(renderer, truth, at),
         bounces=() if bad.total() else bounce_errors(renderer, truth, at),
+        rays=() if bad.total() else ray_errors(renderer, truth, at),
         candidates=others.results,
         failed_candidates=gathered.failed,
     )

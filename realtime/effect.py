@@ -109,8 +109,10 @@ class Effect:
         knobs: its settings.
         rank: among effects for the same term the lowest is taken by default.
         channels: the G-buffer channels it reads, see `gbuffer.CHANNELS`.
-        reads_scattered: whether it reads the lit frame so far (`scattered_light` in its shader): it is drawn after direct
-            light and the environment.
+        reads_scattered: whether it reads the lit frame so far (`scattered_light` in its shader), and so is drawn after
+            direct light and the environment.
+        verdicts: what may become of a pixel, by the number that its shader leaves in `verdict`: the report splits the
+            effect's error by it.
         lights: which lights it handles, for terms of a light.
         unneeded: why this scene does not need it; "" where it does.
         uniforms: values for its shader besides its knobs, from scene, knobs and light (None outside lights).
@@ -130,6 +132,7 @@ class Effect:
     rank: int = 0
     channels: tuple[str, ...] = ()
     reads_scattered: bool = False
+    verdicts: tuple[str, ...] = ()
     lights: Callable[[Scene, Light], bool] = lambda _scene, _light: True
     unneeded: Callable[[Scene], str] = always
     uniforms: Callable[[Scene, Knobs, Light | None], dict[str, Any]] = lambda _scene, _knobs, _light: {}

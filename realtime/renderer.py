@@ -1,6 +1,6 @@
 """Executes a plan: the frame as it is shown, its time, and the terms one by one for the measurement."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -46,12 +46,14 @@ class Capture:
         direct: light to unshadowed radiance, for lights that an effect handles.
         visibility: light to visibility, likewise.
         frame: term to buffer: environment, environment_visibility, indirect.
+        verdicts: effect to the number of what became of each pixel (H, W), for effects that declare some.
     """
 
     points: SurfacePoints
     direct: dict[int, np.ndarray]
     visibility: dict[int, np.ndarray]
     frame: dict[str, np.ndarray]
+    verdicts: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 class Renderer:
@@ -183,19 +185,21 @@ class Renderer:
     def _shaded(self, points: SurfacePoints) -> Capture:
         """Every effect's buffer at the points that the G-buffer holds."""
         stage, passes = self._capture_stage
-        direct, visibility, frame = {}, {}, {}
+        direct, visibility, frame, verdicts = {}, {}, {}, {}
         for step in self.plan.steps:
             if step.writes[0] in DISPLAY_TERMS:
                 continue
             if "scattered" in step.reads:
                 assert stage.scattered is not None
                 stage.scattered.hold(_scattered(direct, visibility, frame, points))
-            values = self._separate(passes[step.effect], step)
+            values, verdict = self._separate(passes[step.effect], step)
+            if self.plan.effects[step.effect][0].verdicts:
+                verdicts[step.effect] = verdict
             if step.light is None:
                 frame |= values
             else:
                 (direct if "direct" in step.writes else visibility)[step.light] = values[step.writes[0]]
-        return Capture(points, direct, visibility, frame)
+        return Capture(points, direct, visibility, frame, verdicts)
 
     @property
     def _capture_stage(self):
@@ -212,8 +216,8 @@ class Renderer:
             self._captured = stage, self._make_passes(stage, separate=True)
         return self._captured
 
-    def _separate(self, shading: ShadingPass, step: Step) -> dict[str, np.ndarray]:
-        """What a step writes, each term by itself; a visibility is 1 and a radiance 0 where nothing is drawn."""
+    def _separate(self, shading: ShadingPass, step: Step) -> tuple[dict[str, np.ndarray], np.ndarray]:
+        """What a step writes, each term by itself, and its verdicts; where nothing is drawn a term is neutral."""
         textures = [self.device.target(self.size) for _ in step.writes]
         target = self.device.framebuffer(textures)
         neutral = TERMS[step.writes[0]].neutral  # where a light does not reach, nothing is drawn
@@ -224,9 +228,9 @@ class Renderer:
             if step.light is not None:
                 self._held[step.effect] = step.light
         shading.draw(step, target, {})
-        return {
-            term: self.device.read(texture)[..., :3].copy() for term, texture in zip(step.writes, textures, strict=True)
-        }
+        images = {term: self.device.read(texture) for term, texture in zip(step.writes, textures, strict=True)}
+        verdict = images[step.writes[0]][..., 3].astype(np.int32)
+        return {term: image[..., :3].copy() for term, image in images.items()}, verdict
 
     def _points(self, gbuffer: GBuffer) -> SurfacePoints:
         position = gbuffer.channel("position")

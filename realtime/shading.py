@@ -117,8 +117,12 @@ class ShadingPass:
     def _outputs(self, terms: tuple[str, ...], reads: tuple[str, ...]) -> tuple[str, str]:
         """Declarations of the outputs, and the lines that fill them."""
         if self._separate or terms[0] in VISIBILITIES:
+            verdict = "float(verdict)" if self._effect.verdicts else "0.0"
             declarations = [f"layout(location = {i}) out vec4 out_{term};" for i, term in enumerate(terms)]
-            lines = [f"    out_{t} = vec4(seen ? {t}(surface) : vec3({TERMS[t].neutral}), 0.0);" for t in terms]
+            lines = []
+            for t in terms:  # the verdict is known when the term is
+                lines.append(f"    vec3 {t}_value = seen ? {t}(surface) : vec3({TERMS[t].neutral});")
+                lines.append(f"    out_{t} = vec4({t}_value, {verdict});")
             return "\n".join(declarations), "\n".join(lines)
         lines = ["    vec3 sum = vec3(0.0);"]
         for term in terms:

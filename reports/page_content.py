@@ -13,6 +13,7 @@ from lightmeter.reports.closure import closure_statement
 from lightmeter.reports.metric_words import beside_the_mean, in_order, label, present
 from lightmeter.reports.object_content import object_content
 from lightmeter.reports.percentages import percent_of
+from lightmeter.reports.ray_content import ray_content
 from lightmeter.reports.results import Effect, Metrics, Results, Timing
 from lightmeter.reports.shadow_content import shadow_content
 from lightmeter.reports.significant import show_number
@@ -35,6 +36,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "objects": object_content(results.objects),
         "shadows": shadow_content(results.shadows),
         "bounces": bounce_content(results.bounces),
+        "rays": ray_content(results.rays),
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),

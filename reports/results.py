@@ -185,6 +185,34 @@ class BounceShare:
 
 
 @dataclass(frozen=True)
+class RayPart:
+    """The pixels whose rays had one fate.
+
+    Attributes:
+        pixels: how many.
+        share: of the effect's squared error; all parts' add up to 1.
+    """
+
+    pixels: int
+    share: Measurement
+
+
+@dataclass(frozen=True)
+class RayError:
+    """What becomes of the rays of an effect that marches some, and what that costs.
+
+    Attributes:
+        effect: which marches them.
+        rmse: of the effect, in radiance, over all pixels.
+        parts: the rays' fate, as the effect declares its verdicts, to its part of the squared error.
+    """
+
+    effect: str
+    rmse: Measurement
+    parts: Mapping[str, RayPart]
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """Something the scene or the plan holds and the comparison does not, and why."""
 
@@ -317,6 +345,7 @@ class Results:
     objects: tuple[ObjectError, ...] = ()
     shadows: tuple[LightShadow, ...] = ()
     bounces: tuple[BounceShare, ...] = ()
+    rays: tuple[RayError, ...] = ()
     candidates: tuple[Candidate, ...] = ()
     failed_candidates: tuple[FailedCandidate, ...] = ()
     schema: int = SCHEMA

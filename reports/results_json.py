@@ -37,6 +37,8 @@ from lightmeter.reports.results import (
     ObjectError,
     PassTime,
     Player,
+    RayError,
+    RayPart,
     Reference,
     Results,
     Timing,
@@ -104,6 +106,7 @@ def from_json(text: str) -> Results:
         attribution=top.get("attribution", None).maybe(_attribution),
         display_attribution=top.get("display_attribution", None).maybe(_attribution),
         objects=tuple(_object_error(item) for item in top.get("objects", []).items()),
+        rays=tuple(_ray_error(item) for item in top.get("rays", []).items()),
         shadows=tuple(_light_shadow(item) for item in top.get("shadows", []).items()),
         bounces=tuple(_bounce_share(item) for item in top.get("bounces", []).items()),
         candidates=tuple(_candidate(item) for item in top.get("candidates", []).items()),
@@ -312,6 +315,17 @@ def _light_shadow(node: _Node) -> LightShadow:
 def _bounce_share(node: _Node) -> BounceShare:
     numbers = {name: _measurement(node.get(name)) for name in ("share", "energy", "leaked", "missing", "rmse")}
     return BounceShare(node.get("effect").text(), node.get("bounces", None).maybe(_Node.integer), **numbers)
+
+
+def _ray_error(node: _Node) -> RayError:
+    return RayError(
+        effect=node.get("effect").text(),
+        rmse=_measurement(node.get("rmse")),
+        parts={
+            fate: RayPart(part.get("pixels").integer(), _measurement(part.get("share")))
+            for fate, part in node.get("parts").nodes().items()
+        },
+    )
 
 
 def _shadow_part(node: _Node) -> ShadowPart:

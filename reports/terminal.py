@@ -16,6 +16,7 @@ from lightmeter.reports.fix_first import fix_first
 from lightmeter.reports.metric_words import TAILS, beside_the_mean, error_phrase, in_order, label, present
 from lightmeter.reports.object_content import by_share
 from lightmeter.reports.percentages import in_percent, percent_of
+from lightmeter.reports.ray_content import ray_line
 from lightmeter.reports.results import Attribution, ObjectError, Results
 from lightmeter.reports.shadow_content import shadow_line
 from lightmeter.reports.shown_names import printable
@@ -54,6 +55,7 @@ def comparison(results: Results) -> Group:
         parts.append(_object(worst[0]))
     parts += [reason(*shadow_line(shadow)) for shadow in results.shadows]
     parts += [reason(*bounce_line(bounce)) for bounce in results.bounces]
+    parts += [reason(*ray_line(rays)) for rays in results.rays]
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))

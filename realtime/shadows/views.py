@@ -119,9 +119,7 @@ def _cone(scene: Scene, light: SpotLight, used: int, border: int) -> ShadowViews
     return ShadowViews(matrix[None], np.append(position, 1.0), np.array([2 * tangent / used]), depths)
 
 
-def cube_views(
-    scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None = None
-) -> ShadowViews:
+def cube_views(scene: Scene, position: np.ndarray, used: int, border: int, excluded: int | None = None) -> ShadowViews:
     """The six faces of a cube about a position; arguments as in `shadow_views`, `excluded` as in `ShadowViews`."""
     depths = _distances(scene, position)
     projection = _perspective(1 + 2 * border / used, *_clipping(depths))

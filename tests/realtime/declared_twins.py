@@ -4,6 +4,7 @@ from importlib import import_module
 from pathlib import Path
 
 from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
 from lightmeter.realtime.shaders import SHARED
 from lightmeter.realtime.shadows.twin import TWINS as SHADOW_TWINS
 from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS
@@ -12,7 +13,7 @@ from lightmeter.realtime.twin import Twin
 
 def declared_twins() -> list[tuple[Path, Twin]]:
     """(folder, twin) of every declaration."""
-    found = [(SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS)]
+    found = [(SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS, *REFLECTION_TWINS)]
     for effect in effects().values():
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")

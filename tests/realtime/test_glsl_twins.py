@@ -35,6 +35,12 @@ NOT_TWINNED = {
     # choose whether to: test_shading_models.py
     "received.glsl": {"all_lobes", "diffuse_only"},  # the surface handed on: test_virtual_lights.py
     "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
+    "reflections.glsl": {"reflected"},  # asks the technique, whose seen_along reads pictures: test_reflections.py
+    "static_cube_map.glsl": {"seen_along"},
+    "local_cube_map.glsl": {"seen_along"},
+    "dynamic_cube_map.glsl": {"seen_along"},
+    "screen_space_reflections.glsl": {"unmet", "seen_along"},
+    "marching.glsl": {"ray_depth", "unmet_verdict"},  # take a structure: test_reflections.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
 """Plumbing; what reads a texture, or calls what does, is told by its text."""

@@ -21,6 +21,7 @@ NAMES = (
     "grid-sun",
     "layers",
     "metal-rough-grid",
+    "mirrors",
     "penumbra",
     "plane",
     "posts",
