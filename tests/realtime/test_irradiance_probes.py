@@ -68,6 +68,19 @@ def test_an_axis_takes_two_thirds_of_a_cosine(device):
     np.testing.assert_allclose(found, [2 / (3 * np.pi)] * 2 + [2 / 3, 0] + [2 / (3 * np.pi)] * 2, atol=2e-3)
 
 
+def test_each_axis_takes_what_lies_its_way(device):
+    """A floor, a back wall and a right one, with a lamp between: light comes from −y, −z and +x."""
+    floor = Shape("floor", shapes.plane(2.0, 2.0), GREY, moved(y=-1.0))
+    turned = np.eye(4)[[2, 1, 0, 3]] * np.array([-1.0, 1.0, -1.0, 1.0])
+    right = Shape("right", shapes.rectangle(2.0, 2.0), GREY, moved(x=1.0) @ turned)
+    back = Shape("back", shapes.rectangle(2.0, 2.0), GREY, moved(z=-1.0))
+    scene = scene_of(floor, right, back, view=camera((0.0, 0.0, 5.0)), lights=(CENTRAL,))
+    maker = made(device, scene, spacing=1.0)
+    (found,) = maker._passes["irradiance_probes"].own.baked[..., 0].T
+    assert found[[1, 2, 4]].max() < 0.35 * found[[0, 3, 5]].min()
+    np.testing.assert_allclose(found[[0, 3, 5]], found[0], rtol=0.01)
+
+
 def test_they_are_baked_once(device):
     maker = made(device, ball(), spacing=1.0)
     assert maker.baking.milliseconds["irradiance_probes"] > 0

@@ -6,7 +6,7 @@ from ...twin import Argument, Twin, uniform
 
 
 def arc(h: np.ndarray, gamma: np.ndarray) -> np.ndarray:
-    """∫₀ʰ cos(θ − γ)·|sin θ| dθ by Gauss and Legendre with 24 nodes; below 0 on the other side, |sin θ| is as much."""
+    """∫₀ʰ cos(θ − γ)·sin θ dθ by Gauss and Legendre with 24 nodes; for h below 0 both sin θ and dθ are."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     angles = h * (nodes[:, None] + 1) / 2
     return np.sum(weights[:, None] * np.cos(angles - gamma) * np.sin(angles), axis=0) * h / 2
