@@ -17,6 +17,7 @@ ERROR = RayError(
     between(0.05, 0.001, RADIANCE),
     {
         "none": NOTHING,
+        "wrong": NOTHING,
         "met": RayPart(1200, between(0.7, 0.02)),
         "left": RayPart(1, between(0.295, 0.02)),
         "hidden": RayPart(30, between(0.005, 0.01)),
@@ -31,7 +32,7 @@ def test_rays_come_back_as_they_were() -> None:
 
 
 def test_the_line_names_the_costliest_first_and_no_trifles() -> None:
-    assert ray_line(ERROR) == ("rays of marcher", "wrong hit or light 70 %, left the screen 30 %")
+    assert ray_line(ERROR) == ("rays of marcher", "other light 70 %, left the screen 30 %")
     calm = dataclasses.replace(ERROR, parts=dict.fromkeys(ERROR.parts, NOTHING))
     assert ray_line(calm)[1] == "no error that can be told from noise"
 
