@@ -34,6 +34,8 @@ NOT_TWINNED = {
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py
     "shadow_views.glsl": {"from_light", "view_of", "receive"},  # uniforms handed on: test_shadow_maps.py
+    "hemisphere.glsl": {"occlusion"},  # reads the screen by shown.glsl: test_ambient_visibility.py
+    "horizons.glsl": {"horizon_towards", "occlusion"},  # likewise
     "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }
