@@ -14,9 +14,9 @@ from lightmeter.realtime.twin import Twin
 def declared_twins() -> list[tuple[Path, Twin]]:
     """(folder, twin) of every declaration."""
     found = [(SHARED, twin) for twin in (*SHARED_TWINS, *SHADOW_TWINS)]
-    found += [(SHARED, twin) for twin in AMBIENT_TWINS]
     for effect in effects().values():
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")
             found += [(effect.folder, twin) for twin in module.TWINS]
+    found += [(SHARED, twin) for twin in AMBIENT_TWINS]
     return found
