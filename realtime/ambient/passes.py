@@ -88,7 +88,7 @@ class ScreenOcclusion:
 
 
 def camera_frame(stage: Stage) -> dict[str, Any]:
-    """The camera as screen-space shaders take it: its axes, and how large a metre one metre away is in pixels."""
+    """The camera as screen-space shaders take it: axes, how many pixels a metre has one metre away, and the size."""
     camera = stage.scene.camera
     axes = camera.matrix[:3, :3] / np.linalg.norm(camera.matrix[:3, :3], axis=0)
     half = camera.ymag if camera.yfov is None else np.tan(camera.yfov / 2)
@@ -98,4 +98,5 @@ def camera_frame(stage: Stage) -> dict[str, Any]:
         "camera_up": axes[:, 1],
         "camera_back": axes[:, 2],
         "pixels_per_metre": stage.size[1] / 2 / half,
+        "screen_size": stage.size,
     }

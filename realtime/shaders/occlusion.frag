@@ -5,7 +5,7 @@ EFFECT
 out vec4 found;
 
 void main() {
-    ivec2 pixel = min(SCALE * ivec2(gl_FragCoord.xy), gbuffer_size() - 1);
+    ivec2 pixel = SCALE * ivec2(gl_FragCoord.xy);
     Surface surface;
     bool seen = load_surface(pixel, surface);
     found = seen ? occlusion(surface, pixel) : vec4(0.0, 0.0, 0.0, 1.0);

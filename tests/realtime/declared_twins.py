@@ -31,4 +31,5 @@ def declared_twins() -> list[tuple[Path, Twin]]:
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")
             found += [(effect.folder, twin) for twin in module.TWINS]
+    found += [(SHARED, twin) for twin in AMBIENT_TWINS]
     return found

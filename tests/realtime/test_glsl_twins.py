@@ -52,6 +52,8 @@ NOT_TWINNED = {
     "dynamic_cube_map.glsl": {"seen_along"},
     "screen_space_reflections.glsl": {"unmet", "seen_along"},
     "marching.glsl": {"ray_depth", "unmet_verdict"},  # take a structure: test_reflections.py
+    "hemisphere.glsl": {"occlusion"},  # reads the screen by shown.glsl: test_ambient_visibility.py
+    "horizons.glsl": {"horizon_towards", "occlusion"},  # likewise
     "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }

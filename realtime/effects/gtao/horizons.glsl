@@ -1,6 +1,7 @@
 // Ambient visibility from horizons (Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion").
 // A slice is the half disk above a line on the screen, through the direction to the viewer; angles in it count from there,
 // positive towards the line's end. All that lies below a horizon counts as hidden.
+#include "shown.glsl"
 uniform vec3 camera_right;
 uniform vec3 camera_up;
 uniform vec3 camera_back;
@@ -49,15 +50,14 @@ vec3 into_slice(vec3 offset, vec3 across, vec3 normal) {
 // The cosine of the horizon on one side of a slice, whose plane is normal to `across`.
 float horizon_towards(vec2 line, vec3 across, float reach, float shift, ivec2 pixel, Surface surface, float lowest) {
     float horizon = lowest, pixels = length(line);
-    ivec2 size = gbuffer_size();
     for (int i = 0; i < STEPS; ++i) {
         float part = (float(i) + shift) / float(STEPS);
         ivec2 there = ivec2(floor(vec2(pixel) + 0.5 + max(part * part * reach, 1.0 / pixels) * line));
-        if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) break;
-        vec4 shown = fetch_place(there);
-        vec3 offset = into_slice(shown.xyz - surface.position, across, surface.normal);
+        vec3 shown;
+        if (!shown_at(there, shown)) continue;
+        vec3 offset = into_slice(shown - surface.position, across, surface.normal);
         float away = length(offset);
-        if (shown.w == 0.0 || away == 0.0) continue;
+        if (away == 0.0) continue;
         float seen = mix(lowest, dot(offset, surface.view) / away, counted(away, radius, falloff));
         horizon = raised(horizon, seen, thickness);
     }

@@ -1,5 +1,6 @@
 // Which share of a hemisphere's places lies before what the screen shows there (de Vries 2015, Learn OpenGL: SSAO).
 #include "screen_place.glsl"
+#include "shown.glsl"
 uniform mat4 view_projection;
 uniform vec3 camera_right;
 uniform vec3 camera_up;
@@ -24,7 +25,7 @@ float range_check(float depth_difference, float reach) {
 }
 
 vec4 occlusion(Surface surface, ivec2 pixel) {
-    ivec2 cell = (pixel / SCALE) & 3, size = gbuffer_size();
+    ivec2 cell = (pixel / SCALE) & 3;
     vec2 turn = rotations[4 * cell.y + cell.x];
     vec3 along = turn.x * camera_right + turn.y * camera_up;
     float hidden = 0.0;
@@ -32,12 +33,10 @@ vec4 occlusion(Surface surface, ivec2 pixel) {
         vec3 offset = radius * around_normal(kernel[i], along, surface.normal);
         vec2 where;
         if (!screen_place(view_projection, surface.position + offset, where)) continue;
-        ivec2 there = ivec2(floor(where * vec2(size)));
-        if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) continue;
-        vec4 shown = fetch_place(there);
-        // Towards the viewer, from the point.
-        float nearer = dot(shown.xyz - surface.position, camera_back);
-        bool before = shown.w > 0.0 && nearer >= dot(offset, camera_back) + bias;
+        vec3 shown;
+        if (!shown_at(ivec2(floor(where * vec2(screen_size))), shown)) continue;
+        float nearer = dot(shown - surface.position, camera_back); // to the viewer than the point
+        bool before = nearer >= dot(offset, camera_back) + bias;
         hidden += before ? range_check(nearer, radius) : 0.0;
     }
     return vec4(surface.normal, pow(1.0 - hidden / float(SAMPLES), power));
