@@ -1,32 +1,45 @@
 """The true surface in comparisons: what is exact with it, and that everything exact is still the reference."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 
 from lightmeter.closure import closure_batches
-from lightmeter.comparison import compare
 from lightmeter.families import Families, composition, offset_layers
+from lightmeter.game import Game
 from lightmeter.metrics.registry import measure
+from lightmeter.metrics.shapley import orders_for
 from lightmeter.options import Budget
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.scenes.load import load
+from lightmeter.scenes.true_surface import true_surface
 from lightmeter.sides import FramePoints, effect_sides
+from lightmeter.squared_shares import squared_errors
+from lightmeter.substitution import players
 from lightmeter.truth import Truth
 from lightmeter.variants import Variants
 
 SIZE = (32, 32)
+CONTROL = load("control")
 FLAT = Choice(use=("flat_shading",), settings={"flat_shading": {"tessellation": 8}})
 
 
-def both_sides(choice: Choice, name: str = "control", spp: int = 32, size: tuple[int, int] = SIZE):
-    """The renderer and the truth of a scene."""
-    plan = compile_plan(load(name), effects(), choice)
-    return Renderer(Device(), plan, size), Truth(plan.true_scene, size, Budget(spp, least=8))
+@cache
+def truth_of(spp: int) -> Truth:
+    """Of the true surface: all tests share its triangles."""
+    return Truth(true_surface(CONTROL), SIZE, Budget(spp, least=8))
+
+
+def both_sides(choice: Choice, spp: int = 16) -> tuple[Renderer, Truth]:
+    """The renderer and the truth of the control scene."""
+    plan = compile_plan(CONTROL, effects(), choice)
+    assert plan.true_scene is truth_of(spp).scene
+    return Renderer(Device(), plan, SIZE), truth_of(spp)
 
 
 def test_with_the_surface_exact_the_frame_is_that_of_the_true_surface():
@@ -72,21 +85,21 @@ def test_the_finest_tessellation_has_no_error():
     assert measure("nrmse", sides.tested, sides.truth).value < 1e-4
 
 
-def test_the_report_has_the_surfaces_row_and_its_share():
-    found = compare(load("control"), (16, 16), Budget(16), choice=FLAT).results
-    effect = next(e for e in found.effects if e.effect == "flat_shading")
-    assert effect.terms == ("surface",) and effect.metrics["rmse"].value > 0
-    player = next(p for p in found.attribution.players if p.name == "flat_shading")
-    shares = sum(p.share["mse"].value for p in found.attribution.players)
-    total = found.attribution.total["mse"].value
-    assert shares + found.attribution.residual["mse"].value == pytest.approx(total, rel=1e-9)
-    assert player.share["mse"].value > 0.3 * total
-    assert "surface" not in found.not_approximated
+def test_the_surface_has_most_of_the_error_and_shares_add_up():
+    renderer, truth = both_sides(FLAT)
+    among, plan = players(renderer.plan), renderer.plan
+    assert among["flat_shading"] == ("surface",) and "surface" not in plan.not_approximated
+    families = Families(renderer, truth, renderer.render().radiance, FramePoints.of(renderer, truth))
+    game = Game(tuple(among), orders_for(len(among)), families, np.stack(truth.reference.batches))
+    errors = squared_errors(game)
+    shares = {name: errors.share(i).value for i, name in enumerate(game.names)}
+    assert sum(shares.values()) + errors.residual().value == pytest.approx(errors.total().value, rel=1e-9)
+    assert shares["flat_shading"] > 0.5 * errors.total().value
 
 
 def test_gouraud_is_judged_on_the_sum_of_its_terms():
     """On its surface, with the light that it interpolated, and the exact visibility: against everything exact."""
-    renderer, truth = both_sides(Choice(use=("gouraud",), settings={"gouraud": {"tessellation": 8}}), spp=8)
+    renderer, truth = both_sides(Choice(use=("gouraud",), settings={"gouraud": {"tessellation": 8}}))
     at = FramePoints.of(renderer, truth)
     sides = effect_sides(renderer, truth, lambda *_: None, at, only=("gouraud",))["gouraud"]
     exact, drawn = at.batch((), 0, 1), at.captures[0].direct[0]

@@ -24,6 +24,7 @@ NAMES = (
     "penumbra",
     "plane",
     "posts",
+    "tessellation",
     "torus",
 )
 
