@@ -64,7 +64,7 @@ def _light(world: World, index: int) -> Light:
 def _from_punctual(world: World, light: PunctualLight, vertices: Vertices, shadowed: bool) -> np.ndarray:
     """(3 or 6, count): in double precision, as it is a closed form; only the shadow ray is single."""
     vertex = vertices.at(dr.arange(mi.UInt32, vertices.count))
-    position = mi.Vector3d(vertex.interaction.p)
+    position = mi.Vector3d(vertex.position)
     towards, irradiance, end = incident(light, position)
     point = optics.MaterialPoint(
         mi.Color3d(vertex.material.base_color),

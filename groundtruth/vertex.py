@@ -42,6 +42,7 @@ class Vertices:
         flat = surface.SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
         face = mi.Float64(1) * mi.Vector3d(flat.face_cross)
         self.face = mi.Float(dr.ravel(mi.Vector3f(dr.normalize(face))))
+        self.start = mi.Float(dr.ravel(_not_below(self.position, self.view, self.face, flat.corner(0))))
         self.double_sided = mi.UInt32(flat.flags & DOUBLE_SIDED)
         dr.make_opaque(*(v for v in vars(self).values() if isinstance(v, mi.Float | mi.UInt32)))
 
@@ -81,10 +82,27 @@ class Vertices:
         return self.image(average(self.count, spp, seed, per_lane, channels, dimensions))
 
 
+def _not_below(positions, views, faces, corner):
+    """Point3f: where rays start.
+
+    A position that was stored in few bits lies off its triangle. Under it all would be dark, which says nothing of how
+    the point is shaded: rays start on the triangle's plane. What is as near to it as Mitsuba's own offset of rays,
+    which is far more than float32's rounding, stays.
+    """
+    lane = dr.arange(mi.UInt32, dr.width(positions) // 3)
+    position = dr.gather(mi.Point3f, positions, lane)
+    view, face = dr.gather(mi.Vector3f, views, lane), dr.gather(mi.Vector3f, faces, lane)
+    height = dr.dot(position - corner, face)
+    offset = mi.math.RayEpsilon * (1 + dr.max(dr.abs(position)))
+    below = (dr.abs(height) > offset) & (height * dr.dot(face, view) < 0)
+    return dr.select(below, position - height * face, position)
+
+
 class Vertex:
     """One point per lane.
 
     Attributes:
+        position: where the G-buffer has it.
         interaction: where rays start, with the geometric normal (Mitsuba's own rule for the offset).
         normal, view: shading normal and direction to the viewer.
         material: the G-buffer's parameters.
@@ -100,7 +118,8 @@ class Vertex:
         color = vector(mi.Color3f, vertices.base_color)
         self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2])
         self.interaction = dr.zeros(mi.SurfaceInteraction3f, dr.width(place))
-        self.interaction.p = vector(mi.Point3f, vertices.position)
+        self.position = vector(mi.Point3f, vertices.position)
+        self.interaction.p = vector(mi.Point3f, vertices.start)
         self.interaction.n = mi.Normal3f(self.face)
         self.interaction.sh_frame = mi.Frame3f(self.face)
         self._viewer_side = dr.dot(self.face, self.view)

@@ -103,6 +103,19 @@ def test_the_irradiance_of_punctual_lights_on_a_plane():
         np.testing.assert_array_equal(a, b)
 
 
+@pytest.mark.parametrize("height", [-0.05, -0.001, 0.02])
+def test_points_beside_their_triangle_are_lit_where_they_are_and_shadowed_as_it_is(height):
+    """A position in few bits: the distance to the light is its own, the floor does not hide the light."""
+    lamp = PointLight("point", (0.5, 2, -0.25), (10, 5, 1))
+    world = floor_world(lights=(lamp,))
+    positions = np.stack([np.linspace(-2, 2, 21), np.full(21, height), np.zeros(21)], axis=1)
+    offset = np.array(lamp.position) - positions.astype(np.float32).astype(float)
+    expected = np.array(lamp.intensity) / np.pi * (offset[:, 1] / np.linalg.norm(offset, axis=1) ** 3)[:, None]
+    shadowed, unshadowed = visibility.evaluate(world, points_at(positions, (0, 1, 0), (0.3, 1, 0.2)), 0)
+    np.testing.assert_allclose(unshadowed[0], expected, rtol=1e-6)
+    np.testing.assert_array_equal(shadowed, unshadowed)
+
+
 def polygon_irradiance(point, normal, corners) -> float:
     """Irradiance of a polygon of radiance 1 wholly above the horizon (Lambert 1760): ½ Σ θᵢ·(γᵢ·n)."""
     to = [np.subtract(c, point) / np.linalg.norm(np.subtract(c, point)) for c in corners]
