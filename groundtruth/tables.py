@@ -13,10 +13,19 @@ from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Mesh, Scene, Shape, Texture
 from lightmeter.scenes.optics.texture import TexelGrid, linear_texels
 
-SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
+SLOTS = (
+    "base_color",
+    "metallic_roughness",
+    "normal",
+    "occlusion",
+    "emissive",
+    "clearcoat",
+    "clearcoat_roughness",
+    "clearcoat_normal",
+)
 
 _NEUTRAL = {slot: np.ones((1, 1, 4), np.float32) for slot in SLOTS} | {
-    "normal": np.array([[[0.5, 0.5, 1, 1]]], np.float32)
+    slot: np.array([[[0.5, 0.5, 1, 1]]], np.float32) for slot in ("normal", "clearcoat_normal")
 }
 
 DOUBLE_SIDED, MASKED = 1, 2
@@ -29,7 +38,7 @@ class Tables:
     Attributes:
         shape_ints: 8 per shape: first triangle, flags, first tangent, its stride, first colour, its stride, 0, 0.
         shape_floats: 16 per shape: base colour and alpha; metallic, roughness, specular, normal scale; emissive and
-            alpha cut-off; occlusion strength, 0, 0, 0.
+            alpha cut-off; occlusion strength, clear coat, its roughness and normal scale.
         slot_ints: 8 per shape × slot: first texel, first texture coordinate, its stride, width, height, wrap u,
             wrap v, nearest.
         slot_floats: 8 per shape × slot: the texture's 2 × 3 matrix, 0, 0.
@@ -108,7 +117,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         corners.add(index, lambda mesh=mesh, i=flat_index: mesh.positions[i])
         normals.add(index, lambda mesh=mesh, i=flat_index: _corner_normals(mesh, i))
         tangent, tangent_stride = no_tangent, 0
-        if mesh.tangents is not None and material.normal_texture is not None:
+        if mesh.tangents is not None and material.uses_tangents:
             tangent = tangents.add(index, lambda mesh=mesh, i=flat_index: mesh.tangents[i])
             tangent_stride = 1
         color, color_stride = no_color, 0
@@ -168,7 +177,7 @@ def _check(shape: Shape) -> None:
                 f"shape {shape.name!r}: its {slot} texture needs texture coordinates {texture.texcoord}, "
                 f"the mesh has {sets} sets"
             )
-    if shape.material.normal_texture is not None and (shape.mesh.tangents is None or shape.mesh.normals is None):
+    if shape.material.uses_tangents and (shape.mesh.tangents is None or shape.mesh.normals is None):
         raise ValueError(
             f"shape {shape.name!r}: a normal texture needs a mesh with normals and tangents "
             "(lightmeter.scenes.dressing.dressed adds them)"
@@ -195,9 +204,9 @@ def _parameters(shape: Shape) -> list[float]:
         *m.emissive,
         m.alpha_cutoff,
         m.occlusion_strength,
-        0.0,
-        0.0,
-        0.0,
+        m.clearcoat,
+        m.clearcoat_roughness,
+        m.clearcoat_normal_scale,
     ]
 
 

@@ -12,6 +12,7 @@ from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.wavefront import Lanes, average
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.optics import material as optics
+from lightmeter.scenes.optics.clear_coat import Coat
 from lightmeter.scenes.points import SurfacePoints
 
 
@@ -39,6 +40,11 @@ class Vertices:
         self.base_color = mi.Float(self._rows(points.base_color))
         scalars = np.stack([points.metallic, points.roughness, points.specular, points.occlusion], axis=-1)
         self.scalars = mi.Float(self._rows(scalars))
+        self.coat = self.coat_normal = None
+        if points.clearcoat is not None and points.clearcoat_roughness is not None:
+            self.coat = mi.Float(self._rows(np.stack([points.clearcoat, points.clearcoat_roughness], axis=-1)))
+        if points.clearcoat_normal is not None:
+            self.coat_normal = mi.Float(self._rows(points.clearcoat_normal))
         flat = surface.SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
         face = mi.Float64(1) * mi.Vector3d(flat.face_cross)
         self.face = mi.Float(dr.ravel(mi.Vector3f(dr.normalize(face))))
@@ -98,13 +104,30 @@ class Vertex:
         self.face = vector(mi.Vector3f, vertices.face)
         scalars = vector(mi.Vector4f, vertices.scalars)
         color = vector(mi.Color3f, vertices.base_color)
-        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2])
+        coat = None
+        if vertices.coat is not None:
+            own = vertices.coat_normal
+            normal = self.normal if own is None else vector(mi.Vector3f, own)
+            factors = vector(mi.Vector2f, vertices.coat)
+            coat = Coat(factors[0], factors[1], normal)
+        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat)
         self.interaction = dr.zeros(mi.SurfaceInteraction3f, dr.width(place))
         self.interaction.p = vector(mi.Point3f, vertices.position)
         self.interaction.n = mi.Normal3f(self.face)
         self.interaction.sh_frame = mi.Frame3f(self.face)
         self._viewer_side = dr.dot(self.face, self.view)
         self._scatters = (self._viewer_side > 0) | (dr.gather(mi.UInt32, vertices.double_sided, place) != 0)
+
+    @property
+    def material_in_double(self) -> optics.MaterialPoint:
+        """The material for closed forms in double precision."""
+        material, coat = self.material, self.material.coat
+        if coat is not None:
+            normal = dr.normalize(mi.Vector3d(coat.normal))
+            coat = Coat(mi.Float64(coat.factor), mi.Float64(coat.roughness), normal)
+        metallic, roughness = mi.Float64(material.metallic), mi.Float64(material.roughness)
+        color, specular = mi.Color3d(material.base_color), mi.Float64(material.specular)
+        return optics.MaterialPoint(color, metallic, roughness, specular, coat)
 
     def carries(self, light):
         """Bool: the transport's rule, light on the viewer's side of the geometric face, which must scatter."""

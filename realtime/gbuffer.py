@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.layers import COAT, LAYER_CHANNELS, layer_channels
 from lightmeter.scenes.model import Material, Scene, Texture, Vector
 from lightmeter.scenes.points import SurfacePoints
 
@@ -15,8 +16,8 @@ from .projection import projection_matrix, view_matrix
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
-CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion")
-"""What effects may read. A channel that is the same everywhere costs no attachment."""
+CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT)
+"""What effects may read. A channel that is the same everywhere, or of a layer that no material has, costs nothing."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,8 @@ ATTACHMENTS = (
     Attachment("normal_roughness", ("normal", "roughness"), "vec4(normal, roughness)"),
     Attachment("base_color_metallic", ("base_color", "metallic"), "vec4(base_color.rgb, metallic)"),
     Attachment("specular_occlusion", ("specular", "occlusion"), "vec2(specular_factor, occlusion)", 2),
+    Attachment("clearcoat_factors", COAT[:2], "vec2(clearcoat, clearcoat_roughness)", 2),
+    Attachment("clearcoat_normal", COAT[2:], "vec4(clearcoat_normal, 0.0)"),
 )
 PARTS: dict[str, tuple[str, slice | int]] = {
     "position": ("position", slice(3)),
@@ -43,6 +46,9 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "metallic": ("base_color_metallic", 3),
     "specular": ("specular_occlusion", 0),
     "occlusion": ("specular_occlusion", 1),
+    "clearcoat": ("clearcoat_factors", 0),
+    "clearcoat_roughness": ("clearcoat_factors", 1),
+    "clearcoat_normal": ("clearcoat_normal", slice(3)),
 }
 """Where in the attachments each channel lies."""
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
@@ -60,6 +66,7 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
         "roughness": "metallic_roughness" in slots,
         "specular": False,
     }
+    varying |= {name: name in slots for name in layer_channels(scene) if name != "clearcoat_normal"}
     constants: dict[str, float | Vector] = {} if "occlusion" in slots else {"occlusion": 1.0}
     for name, varies in varying.items():
         values = {getattr(material, name) for material in materials}
@@ -83,7 +90,7 @@ class GBuffer:
     """Renders the surface's parameters.
 
     Args:
-        channels: those that are read; the rest is left out.
+        channels: those that are read; the rest is left out, and what belongs to layers that no material has.
         radiance: the texture that emission and the environment behind everything go to.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
     """
@@ -100,7 +107,8 @@ class GBuffer:
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
-        varying = channels - set(self.constants)
+        self.channels = channels - (frozenset(COAT) - set(layer_channels(scene)))
+        varying = self.channels - set(self.constants)
         attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
         self.textures = {a.name: device.target(size, a.components) for a in attachments}
         self.radiance = radiance
@@ -125,7 +133,13 @@ class GBuffer:
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
         names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._attachments if a.channels}
-        return names | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+        names |= {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+        return names | self._layers()
+
+    def _layers(self) -> dict[str, object]:
+        """The layers of materials that it holds."""
+        found = {layer for layer, channels in LAYER_CHANNELS.items() if self.channels & set(channels)}
+        return {f"LAYER_{layer.upper()}": True for layer in sorted(found)}
 
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
@@ -190,6 +204,7 @@ class GBuffer:
             defines |= {f"TEXTURE_{slot[0].upper()}": True for slot in slots}
             defines["ALPHA_MASK"] = material.alpha_mode == "mask"
             defines["DOUBLE_SIDED"] = material.double_sided
+            defines |= self._layers()
             fragment = source("gbuffer.frag", defines).text
             fragment = fragment.replace("TEXTURE_DECLARATIONS", "\n".join(map(texture_declaration, slots)))
             fragment = fragment.replace("ATTACHMENTS", self._declarations()).replace("    WRITES", self._writes())
@@ -238,6 +253,9 @@ def material_uniforms(material: Material) -> dict[str, object]:
         "normal_scale": material.normal_scale,
         "occlusion_strength": material.occlusion_strength,
         "alpha_cutoff": material.alpha_cutoff,
+        "clearcoat_factor": material.clearcoat,
+        "clearcoat_roughness_factor": material.clearcoat_roughness,
+        "clearcoat_normal_scale": material.clearcoat_normal_scale,
     }
     for slot, texture in material.textures.items():
         values |= transform_uniforms(slot, texture)

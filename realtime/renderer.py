@@ -240,7 +240,7 @@ class Renderer:
         view = (eye[:3] - eye[3] * position.astype(np.float64)).astype(np.float64)
         view /= np.maximum(np.linalg.norm(view, axis=-1, keepdims=True), 1e-300)
         return SurfacePoints(
-            **{name: gbuffer.channel(name) for name in CHANNELS},
+            **{name: gbuffer.channel(name) for name in gbuffer.channels},
             view=np.broadcast_to(view, position.shape).astype(np.float32),
             emission=self.device.read(gbuffer.radiance)[..., :3].copy(),
             shape=np.where(hit, identity[..., 0], -1).astype(np.int32),

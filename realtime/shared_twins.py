@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import arrays, environment, frames, lights, material, microfacet
+from lightmeter.scenes.optics import arrays, clear_coat, environment, frames, lights, material, microfacet
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -193,6 +193,22 @@ def brightest_at_grazing(_rng: np.random.Generator, inputs: list[np.ndarray]) ->
     return [v_dot_h, np.minimum(f0, f90), np.maximum(f0, f90)]
 
 
+def coat(factor, roughness, normal) -> clear_coat.Coat:
+    """A coat in the order of the GLSL's arguments."""
+    return clear_coat.Coat(factor, roughness, normal)
+
+
+def above_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """As `near_the_mirror`, of a roughness, n, v and l, whatever stands before them."""
+    *others, roughness, n, v, light = inputs
+    unused = np.zeros_like(roughness)
+    *_, n, v, light = near_the_mirror(rng, [unused, unused, roughness, unused, n, v, light])
+    return [*others, roughness, n, v, light]
+
+
+COAT_LOBE_ROUNDINGS = 1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 3
+"""The half vector (12), D (16), V (12.5), n·l and its products (3)."""
+
 TWINS = (
     Twin(
         "brdf.glsl",
@@ -334,6 +350,46 @@ TWINS = (
         roundings=1 + 3 + 3 + 2 + 1 + 7 + 5 + 1 + 2 + 3,
         why="v + l, a square (3), a scalar product (3), inversesqrt (2) and the product; F (7) with F0 (5); 1 − F, "
         "c_diff (2), 1/π and two products",
+        cancels=1.0,
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coat_reflectance",
+        "float",
+        (unit("clearcoat"), Argument("n_dot_v", "float", uniform(-1.0, 1.0), (0.0, 1.0, -1.0, 1e-7))),
+        lambda clearcoat, n_dot_v: clearcoat * microfacet.f_schlick(np.abs(n_dot_v), clear_coat.F0, 1.0),
+        roundings=7 + 1,
+        why="F (7) and the product",
+        cancels=1.0,
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coat_lobe",
+        "float",
+        (unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)), towards("n"), towards("v"), towards("l")),
+        lambda roughness, n, v, light: clear_coat.lobe(coat(1.0, roughness, n), v, light),
+        roundings=COAT_LOBE_ROUNDINGS,
+        why="see COAT_LOBE_ROUNDINGS",
+        arrange=above_the_mirror,
+        signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coated",
+        "vec3",
+        (
+            color("base"),
+            unit("clearcoat"),
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        lambda base, clearcoat, roughness, n, v, light: clear_coat.over(coat(clearcoat, roughness, n), base, v, light),
+        roundings=COAT_LOBE_ROUNDINGS + 3 + 8 + 3,
+        why="the lobe, n·v (3), the coat's reflectance (8), mix (3)",
+        arrange=above_the_mirror,
+        signs=lambda _base, _clearcoat, _roughness, n, v, light: lit_signs(n, v, light),
         cancels=1.0,
     ),
     Twin(

@@ -102,6 +102,9 @@ class Material:
         emissive: radiance leaving the front, W/(sr·m²) (KHR_materials_emissive_strength is folded in).
         alpha_mode: "opaque", or "mask": a point is there where alpha ≥ `alpha_cutoff`.
         double_sided: else the back is opaque and black (it absorbs) on both sides of the comparison.
+        clearcoat, clearcoat_roughness: KHR_materials_clearcoat, 0…1; 0: there is no coat.
+        clearcoat_texture, clearcoat_roughness_texture: factors in red and in green.
+        clearcoat_normal_texture: without one the coat is smooth, whatever the base's normal texture does.
         left_out: extensions of its file that are not read and would change how it looks.
     """
 
@@ -122,14 +125,32 @@ class Material:
     alpha_mode: Literal["opaque", "mask"] = "opaque"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
+    clearcoat: float = 0.0
+    clearcoat_roughness: float = 0.0
+    clearcoat_texture: Texture | None = None
+    clearcoat_roughness_texture: Texture | None = None
+    clearcoat_normal_texture: Texture | None = None
+    clearcoat_normal_scale: float = 1.0
     left_out: tuple[str, ...] = ()
 
     @property
     def textures(self) -> dict[str, Texture]:
-        """The textures it has, by the slot's name."""
+        """The textures it looks up, by the slot's name: those of a layer only where there is the layer."""
         slots = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
+        if self.clearcoat > 0:
+            slots += ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
         found = {slot: getattr(self, f"{slot}_texture") for slot in slots}
         return {slot: texture for slot, texture in found.items() if texture is not None}
+
+    @property
+    def layers(self) -> frozenset[str]:
+        """What it has beyond the metallic-roughness base: "coat"."""
+        return frozenset({"coat"} if self.clearcoat > 0 else ())
+
+    @property
+    def uses_tangents(self) -> bool:
+        """Whether its mesh needs tangents."""
+        return not self.textures.keys().isdisjoint({"normal", "clearcoat_normal"})
 
     @property
     def emits(self) -> bool:

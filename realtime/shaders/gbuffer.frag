@@ -10,6 +10,11 @@ uniform vec3 emissive_factor;
 uniform float normal_scale;
 uniform float occlusion_strength;
 uniform float alpha_cutoff;
+#ifdef LAYER_COAT
+uniform float clearcoat_factor;
+uniform float clearcoat_roughness_factor;
+uniform float clearcoat_normal_scale;
+#endif
 uniform int shape;
 in vec3 world_position;
 in vec3 vertex_normal;
@@ -60,6 +65,23 @@ void main() {
     float occlusion = 1.0;
 #ifdef TEXTURE_OCCLUSION
     occlusion = 1.0 + occlusion_strength * (look_up_occlusion().r - 1.0);
+#endif
+#ifdef LAYER_COAT
+    float clearcoat = clearcoat_factor;
+    float clearcoat_roughness = clearcoat_roughness_factor;
+#ifdef TEXTURE_CLEARCOAT
+    clearcoat *= look_up_clearcoat().r;
+#endif
+#ifdef TEXTURE_CLEARCOAT_ROUGHNESS
+    clearcoat_roughness *= look_up_clearcoat_roughness().g;
+#endif
+#if defined(TEXTURE_CLEARCOAT_NORMAL) && defined(HAS_TANGENT)
+    vec3 clearcoat_normal = tangent_to_world(vertex_tangent.xyz, vertex_tangent.w, vertex_normal,
+                                             decode_normal(look_up_clearcoat_normal().rgb, clearcoat_normal_scale));
+#else
+    vec3 clearcoat_normal = normalize(vertex_normal);
+#endif
+    clearcoat_normal = gl_FrontFacing ? clearcoat_normal : -clearcoat_normal;
 #endif
 #ifdef DOUBLE_SIDED
     normal = gl_FrontFacing ? normal : -normal;

@@ -9,6 +9,12 @@ uniform sampler2D gbuffer_base_color_metallic;
 #ifdef GBUFFER_SPECULAR_OCCLUSION
 uniform sampler2D gbuffer_specular_occlusion;
 #endif
+#ifdef GBUFFER_CLEARCOAT_FACTORS
+uniform sampler2D gbuffer_clearcoat_factors;
+#endif
+#ifdef GBUFFER_CLEARCOAT_NORMAL
+uniform sampler2D gbuffer_clearcoat_normal;
+#endif
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -20,6 +26,11 @@ struct Surface {
     float roughness;
     float specular;
     float occlusion;
+#ifdef LAYER_COAT
+    float clearcoat;
+    float clearcoat_roughness;
+    vec3 clearcoat_normal;
+#endif
 };
 
 // False where the pixel shows no surface, or one seen from the dark side of its normal (n·v ≤ 0): there nothing is
@@ -45,6 +56,16 @@ bool load_surface(ivec2 pixel, out Surface surface) {
     surface.specular = specular_occlusion.r;
     surface.occlusion = specular_occlusion.g;
 #endif
+#ifdef GBUFFER_CLEARCOAT_FACTORS
+    vec2 clearcoat_factors = texelFetch(gbuffer_clearcoat_factors, pixel, 0).rg;
+    surface.clearcoat = clearcoat_factors.r;
+    surface.clearcoat_roughness = clearcoat_factors.g;
+#endif
+#ifdef GBUFFER_CLEARCOAT_NORMAL
+    surface.clearcoat_normal = texelFetch(gbuffer_clearcoat_normal, pixel, 0).xyz;
+#elif defined(LAYER_COAT)
+    surface.clearcoat_normal = surface.normal;
+#endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;
 #endif
@@ -59,6 +80,12 @@ bool load_surface(ivec2 pixel, out Surface surface) {
 #endif
 #ifdef CONSTANT_OCCLUSION
     surface.occlusion = CONSTANT_OCCLUSION;
+#endif
+#if defined(LAYER_COAT) && defined(CONSTANT_CLEARCOAT)
+    surface.clearcoat = CONSTANT_CLEARCOAT;
+#endif
+#if defined(LAYER_COAT) && defined(CONSTANT_CLEARCOAT_ROUGHNESS)
+    surface.clearcoat_roughness = CONSTANT_CLEARCOAT_ROUGHNESS;
 #endif
     return seen;
 }

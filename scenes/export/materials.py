@@ -1,4 +1,4 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat)."""
 
 from typing import Any
 
@@ -8,6 +8,7 @@ from .radiant import color_and_strength
 from .textures import Textures
 
 EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
+CLEARCOAT = "KHR_materials_clearcoat"
 CODING = {True: "sRGB", False: "linear"}
 COLOURED = ("base_color", "emissive")
 """The textures whose colours glTF takes for sRGB-encoded; the others are linear."""
@@ -79,7 +80,24 @@ class Materials:
             extensions[EMISSIVE_STRENGTH] = {"emissiveStrength": strength}
         if material.specular != 1:
             extensions[SPECULAR] = {"specularFactor": material.specular}
+        if "coat" in material.layers:
+            extensions[CLEARCOAT] = _coat(material, info)
         if extensions:
             content["extensions"] = extensions
             self.extensions |= set(extensions)
         return content
+
+
+def _coat(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """KHR_materials_clearcoat; `info` holds the textures by slot."""
+    coat: dict[str, Any] = {
+        "clearcoatFactor": material.clearcoat,
+        "clearcoatRoughnessFactor": material.clearcoat_roughness,
+    }
+    if "clearcoat" in info:
+        coat["clearcoatTexture"] = info["clearcoat"]
+    if "clearcoat_roughness" in info:
+        coat["clearcoatRoughnessTexture"] = info["clearcoat_roughness"]
+    if "clearcoat_normal" in info:
+        coat["clearcoatNormalTexture"] = info["clearcoat_normal"] | {"scale": material.clearcoat_normal_scale}
+    return coat

@@ -1,4 +1,6 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat)."""
+
+from typing import Any
 
 from lightmeter.scenes.gltf import document
 from lightmeter.scenes.gltf.features import HARMLESS, READ
@@ -79,8 +81,27 @@ class Materials:
             alpha_mode="mask" if part.alpha_mode == "MASK" else "opaque",
             alpha_cutoff=part.alpha_cutoff,
             double_sided=part.double_sided,
+            **self._coat(part, place),
             left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
+
+    def _coat(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of a coat, where there is one: a factor of 0 disables the layer with its textures."""
+        name = "KHR_materials_clearcoat"
+        coat = self._source.extension(part, name, document.ClearCoat, place)
+        if coat is None or coat.factor == 0:
+            return {}
+        if max(part.emissive) > 0:
+            self._source.note(f"{part.name or place}: the coat does not darken its emission in either picture")
+        read, here = self._textures.texture, f"{place}.extensions.{name}"
+        return {
+            "clearcoat": coat.factor,
+            "clearcoat_roughness": coat.roughness,
+            "clearcoat_texture": read(coat.texture, False, f"{here}.clearcoatTexture"),
+            "clearcoat_roughness_texture": read(coat.roughness_texture, False, f"{here}.clearcoatRoughnessTexture"),
+            "clearcoat_normal_texture": read(coat.normal_texture, False, f"{here}.clearcoatNormalTexture"),
+            "clearcoat_normal_scale": coat.normal_texture.scale if coat.normal_texture else 1.0,
+        }
 
     def _specular(self, part: document.Material, place: str) -> float:
         specular = self._source.extension(part, "KHR_materials_specular", document.Specular, place)

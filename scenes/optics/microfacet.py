@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from . import arrays as xp
 from .arrays import Array
+from .frames import basis
 
 PI = 3.141592653589793
 MIN_ALPHA = 1e-3
@@ -137,3 +138,25 @@ def sample_visible_normal(v: Array, alpha: Array, u1: Array, u2: Array, vector: 
     p3 = xp.sqrt(xp.maximum(1 - p1 * p1 - p2 * p2, 0.0))
     nh = p1 * t1 + p2 * t2 + p3 * vh
     return xp.normalize(vector(alpha * nh[0], alpha * nh[1], xp.maximum(nh[2], 1e-6)))
+
+
+def mirrored_density(n_dot_v: Array, d: Array, alpha: Array) -> Array:
+    """Density over l of light mirrored at a visible normal of GGX, 1/sr: G1·D/(4·n·v) (Heitz 2018, eq. 17).
+
+    It is the density of visible normals over h, times dh/dl = 1/(4·v·h).
+
+    Args:
+        d: D at the half vector.
+    """
+    a2 = alpha * alpha
+    g1_over_4nv = 0.5 / xp.maximum(n_dot_v + xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2), 1e-30)
+    return g1_over_4nv * d
+
+
+def sample_mirrored(n: Array, v: Array, alpha: Array, u1: Array, u2: Array, vector: Callable) -> Array:
+    """A direction with density `mirrored_density`; may fall below the horizon. `vector` builds one from x, y, z."""
+    s, t = basis(n, vector)
+    local_v = vector(xp.dot(s, v), xp.dot(t, v), xp.maximum(xp.dot(n, v), 1e-6))
+    h = sample_visible_normal(local_v, alpha, u1, u2, vector)
+    local = 2 * xp.dot(local_v, h) * h - local_v
+    return xp.normalize(local[0] * s + local[1] * t + local[2] * n)

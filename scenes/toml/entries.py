@@ -106,6 +106,12 @@ class MaterialEntry(Strict):
     alpha_mode: Literal["opaque", "mask"] = "opaque"
     alpha_cutoff: Fraction = 0.5
     double_sided: Flag = False
+    clearcoat: Fraction = Field(0.0, description="Clear coat of index 1.5 (KHR_materials_clearcoat); 0: none.")
+    clearcoat_roughness: Fraction = 0.0
+    clearcoat_texture: TextureKey | None = Field(None, description="Factor in red.")
+    clearcoat_roughness_texture: TextureKey | None = Field(None, description="Factor in green.")
+    clearcoat_normal_texture: TextureKey | None = None
+    clearcoat_normal_scale: Number = 1.0
 
 
 class CameraEntry(Strict):

@@ -30,6 +30,7 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 NOT_TWINNED = {
     "ltc_area_light.glsl": {"cut_side", "add_side"},  # hand structures on: test_ltc.py
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
+    "constant_ambient.glsl": {"surface_albedo"},  # hands the surface on: test_material_layers.py
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py

@@ -1,5 +1,8 @@
 // Light of one radiance from everywhere, reflected by the Lambert base and by GGX's directional albedo.
 #include "brdf.glsl"
+#ifdef LAYER_COAT
+#include "clear_coat.glsl"
+#endif
 uniform vec3 environment_radiance;
 uniform vec3 indirect_radiance;
 
@@ -19,12 +22,22 @@ vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float spec
     return mirrored + (1.0 - above) * diffuse_color(base_color, metallic);
 }
 
+vec3 surface_albedo(Surface surface) {
+    vec3 value = ambient_albedo(surface.base_color, surface.metallic, surface.roughness, surface.specular,
+                                dot(surface.normal, surface.view));
+#ifdef LAYER_COAT
+    // The coat mirrors what it takes, and what it mirrors is the same from everywhere: as a prefiltered map is scaled
+    // by its Fresnel term alone (Guy & Agopian 2018, Physically Based Rendering in Filament, on image based lights).
+    float mirrored = coat_reflectance(surface.clearcoat, dot(surface.clearcoat_normal, surface.view));
+    value = mix(value, vec3(1.0), mirrored);
+#endif
+    return value;
+}
+
 vec3 environment(Surface surface) {
-    return environment_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.roughness,
-                                                 surface.specular, dot(surface.normal, surface.view));
+    return environment_radiance * surface_albedo(surface);
 }
 
 vec3 indirect(Surface surface) {
-    return indirect_radiance * ambient_albedo(surface.base_color, surface.metallic, surface.roughness,
-                                              surface.specular, dot(surface.normal, surface.view));
+    return indirect_radiance * surface_albedo(surface);
 }

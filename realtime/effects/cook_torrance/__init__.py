@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.layers import COAT
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.optics.conductors import METALS
 
@@ -115,7 +116,7 @@ EFFECT = Effect(
             sweep=tuple(COMPENSATIONS),
         ),
     ),
-    channels=("position", "normal", "roughness", "base_color", "metallic", "specular"),
+    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT),
     lights=punctual.punctual,
     uniforms=uniforms,
     defines=defines,

@@ -4,6 +4,9 @@
 #include "microfacets.glsl"
 #include "fresnel.glsl"
 #include "compensation.glsl"
+#ifdef LAYER_COAT
+#include "clear_coat.glsl"
+#endif
 
 // f(v, l)·(n·l), 1/sr; as gltf_brdf in brdf.glsl.
 vec3 reflected(vec3 base_color, float metallic, float roughness, float specular, vec3 n, vec3 v, vec3 l) {
@@ -24,6 +27,11 @@ vec3 reflected(vec3 base_color, float metallic, float roughness, float specular,
 vec3 direct(Surface surface) {
     vec3 to_light;
     float received = received_at(surface.position, to_light);
-    return light_power * received * reflected(surface.base_color, surface.metallic, surface.roughness, surface.specular,
-                                              surface.normal, surface.view, to_light);
+    vec3 value = reflected(surface.base_color, surface.metallic, surface.roughness, surface.specular, surface.normal,
+                           surface.view, to_light);
+#ifdef LAYER_COAT
+    value = coated(value, surface.clearcoat, surface.clearcoat_roughness, surface.clearcoat_normal, surface.view,
+                   to_light);
+#endif
+    return light_power * received * value;
 }
