@@ -24,6 +24,7 @@ SCATTERING_SLOTS = frozenset(
         "clearcoat",
         "clearcoat_roughness",
         "clearcoat_normal",
+        "anisotropy",
     }
 )
 MASK = "mask"

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from lightmeter.groundtruth.tables import DOUBLE_SIDED, MASKED, SLOTS, Tables
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.optics import frames
+from lightmeter.scenes.optics.anisotropy import Grain
 from lightmeter.scenes.optics.clear_coat import Coat
 from lightmeter.scenes.optics.material import MaterialPoint
 from lightmeter.scenes.optics.texture import TexelGrid
 
-ALL_SLOTS = frozenset(SLOTS) | {"color", "coat"}
+ALL_SLOTS = frozenset(SLOTS) | {"color", "coat", "grain"}
 
 
 @dataclass
@@ -88,10 +89,13 @@ class SurfacePoint:
         n = self._corners(mi.Vector3f, self.tables.normals, 3 * self.first_triangle, mi.UInt32(1))
         if slot not in self.slots:
             return dr.normalize(n)
-        tangent = self._corners(mi.Vector4f, self.tables.tangents, self._tangent, self._tangent_stride)
         mapped = frames.decode_normal(self.texel(slot), scale(), mi.Vector3f)
-        direction = mi.Vector3f(tangent[0], tangent[1], tangent[2])
-        return frames.tangent_to_world(direction, dr.select(tangent[3] < 0, -1, mi.Float(1)), n, mapped)
+        return frames.tangent_to_world(*self._tangent_and_sign(), n, mapped)
+
+    def _tangent_and_sign(self):
+        """The interpolated tangent and the bitangent's sign."""
+        tangent = self._corners(mi.Vector4f, self.tables.tangents, self._tangent, self._tangent_stride)
+        return mi.Vector3f(tangent[0], tangent[1], tangent[2]), dr.select(tangent[3] < 0, -1, mi.Float(1))
 
     @property
     def base_color_alpha(self):
@@ -120,7 +124,8 @@ class SurfacePoint:
             texel = self.texel("metallic_roughness")
             metallic, roughness = metallic * texel[2], roughness * texel[1]
         coat = self._coat if "coat" in self.slots else None
-        return MaterialPoint(mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2], coat)
+        grain = self._grain if "grain" in self.slots else None
+        return MaterialPoint(mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2], coat, grain)
 
     @property
     def _coat(self) -> Coat:
@@ -130,6 +135,18 @@ class SurfacePoint:
         if "clearcoat_roughness" in self.slots:
             roughness = roughness * self.texel("clearcoat_roughness")[1]
         return Coat(factor, roughness, self.coat_normal)
+
+    @property
+    def _grain(self) -> Grain:
+        strength, x, y, _ = dr.gather(mi.Vector4f, self.tables.grain_floats, self.shape, self.active)
+        if "anisotropy" in self.slots:
+            texel = self.texel("anisotropy")
+            strength = strength * texel[2]
+            u, v = 2 * texel[0] - 1, 2 * texel[1] - 1
+            x, y = x * u - y * v, y * u + x * v
+        n = self._corners(mi.Vector3f, self.tables.normals, 3 * self.first_triangle, mi.UInt32(1))
+        direction = frames.along_grain(*self._tangent_and_sign(), n, self.normal, x, y, mi.Vector3f)
+        return Grain(strength, direction)
 
     @property
     def emission(self):

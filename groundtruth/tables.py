@@ -22,11 +22,13 @@ SLOTS = (
     "clearcoat",
     "clearcoat_roughness",
     "clearcoat_normal",
+    "anisotropy",
 )
 
 _NEUTRAL = {slot: np.ones((1, 1, 4), np.float32) for slot in SLOTS} | {
     slot: np.array([[[0.5, 0.5, 1, 1]]], np.float32) for slot in ("normal", "clearcoat_normal")
 }
+_NEUTRAL["anisotropy"] = np.array([[[1, 0.5, 1, 1]]], np.float32)
 
 DOUBLE_SIDED, MASKED = 1, 2
 
@@ -39,6 +41,7 @@ class Tables:
         shape_ints: 8 per shape: first triangle, flags, first tangent, its stride, first colour, its stride, 0, 0.
         shape_floats: 16 per shape: base colour and alpha; metallic, roughness, specular, normal scale; emissive and
             alpha cut-off; occlusion strength, clear coat, its roughness and normal scale.
+        grain_floats: 4 per shape: strength of the anisotropy, the grain's direction along tangent and bitangent, 0.
         slot_ints: 8 per shape × slot: first texel, first texture coordinate, its stride, width, height, wrap u,
             wrap v, nearest.
         slot_floats: 8 per shape × slot: the texture's 2 × 3 matrix, 0, 0.
@@ -53,6 +56,7 @@ class Tables:
 
     shape_ints: object
     shape_floats: object
+    grain_floats: object
     slot_ints: object
     slot_floats: object
     positions: object
@@ -106,7 +110,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     no_tangent = tangents.add("none", lambda: [1, 0, 0, 1])
     no_color = colors.add("none", lambda: [1, 1, 1, 1])
     no_texcoord = texcoords.add("none", lambda: [0, 0])
-    shape_ints, shape_floats, slot_ints, slot_floats = [], [], [], []
+    shape_ints, shape_floats, grain_floats, slot_ints, slot_floats = [], [], [], [], []
     first_triangle = 0
     keep = []  # so that no id() is given out twice while the tables are built
     for index, shape in enumerate(scene.shapes):
@@ -126,6 +130,8 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         flags = DOUBLE_SIDED * material.double_sided + MASKED * (material.alpha_mode == "mask")
         shape_ints.append([first_triangle, flags, tangent, tangent_stride, color, color_stride, 0, 0])
         shape_floats.append(_parameters(shape))
+        turn = material.anisotropy_rotation
+        grain_floats.append([material.anisotropy, np.cos(turn), np.sin(turn), 0.0])
         first_triangle += len(mesh.triangles)
         for slot in SLOTS:
             texture = material.textures.get(slot)
@@ -144,7 +150,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     if not scene.shapes:
         corners.add("none", lambda: np.zeros((3, 3)))
         normals.add("none", lambda: np.zeros((3, 3)))
-        shape_ints, shape_floats = [[0] * 8], [[0.0] * 16]
+        shape_ints, shape_floats, grain_floats = [[0] * 8], [[0.0] * 16], [[0.0] * 4]
         slot_ints, slot_floats = [[0] * 8] * len(SLOTS), [[0.0] * 8] * len(SLOTS)
         texels.add("none", lambda: [1, 1, 1, 1])
     numbers = {number: index for index, number in enumerate(registry_ids) if number is not None}
@@ -153,6 +159,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     tables = Tables(
         mi.UInt32(np.array(shape_ints, np.uint32).ravel()),
         mi.Float(np.array(shape_floats, np.float32).ravel()),
+        mi.Float(np.array(grain_floats, np.float32).ravel()),
         mi.UInt32(np.array(slot_ints, np.uint32).ravel()),
         mi.Float(np.array(slot_floats, np.float32).ravel()),
         corners.array(),
@@ -179,7 +186,7 @@ def _check(shape: Shape) -> None:
             )
     if shape.material.uses_tangents and (shape.mesh.tangents is None or shape.mesh.normals is None):
         raise ValueError(
-            f"shape {shape.name!r}: a normal texture needs a mesh with normals and tangents "
+            f"shape {shape.name!r}: its normal texture or anisotropy needs a mesh with normals and tangents "
             "(lightmeter.scenes.dressing.dressed adds them)"
         )
 

@@ -12,6 +12,7 @@ from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.wavefront import Lanes, average
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.optics import material as optics
+from lightmeter.scenes.optics.anisotropy import Grain
 from lightmeter.scenes.optics.clear_coat import Coat
 from lightmeter.scenes.points import SurfacePoints
 
@@ -45,6 +46,10 @@ class Vertices:
             self.coat = mi.Float(self._rows(np.stack([points.clearcoat, points.clearcoat_roughness], axis=-1)))
         if points.clearcoat_normal is not None:
             self.coat_normal = mi.Float(self._rows(points.clearcoat_normal))
+        self.grain = None
+        if points.anisotropy is not None and points.anisotropy_direction is not None:
+            rows = np.concatenate([points.anisotropy_direction, points.anisotropy[..., None]], axis=-1)
+            self.grain = mi.Float(self._rows(rows))
         flat = surface.SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
         face = mi.Float64(1) * mi.Vector3d(flat.face_cross)
         self.face = mi.Float(dr.ravel(mi.Vector3f(dr.normalize(face))))
@@ -110,7 +115,11 @@ class Vertex:
             normal = self.normal if own is None else vector(mi.Vector3f, own)
             factors = vector(mi.Vector2f, vertices.coat)
             coat = Coat(factors[0], factors[1], normal)
-        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat)
+        grain = None
+        if vertices.grain is not None:
+            row = vector(mi.Vector4f, vertices.grain)
+            grain = Grain(row[3], mi.Vector3f(row[0], row[1], row[2]))
+        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat, grain)
         self.interaction = dr.zeros(mi.SurfaceInteraction3f, dr.width(place))
         self.interaction.p = vector(mi.Point3f, vertices.position)
         self.interaction.n = mi.Normal3f(self.face)
@@ -125,9 +134,12 @@ class Vertex:
         if coat is not None:
             normal = dr.normalize(mi.Vector3d(coat.normal))
             coat = Coat(mi.Float64(coat.factor), mi.Float64(coat.roughness), normal)
+        grain = material.grain
+        if grain is not None:
+            grain = Grain(mi.Float64(grain.strength), dr.normalize(mi.Vector3d(grain.direction)))
         metallic, roughness = mi.Float64(material.metallic), mi.Float64(material.roughness)
         color, specular = mi.Color3d(material.base_color), mi.Float64(material.specular)
-        return optics.MaterialPoint(color, metallic, roughness, specular, coat)
+        return optics.MaterialPoint(color, metallic, roughness, specular, coat, grain)
 
     def carries(self, light):
         """Bool: the transport's rule, light on the viewer's side of the geometric face, which must scatter."""

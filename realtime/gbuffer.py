@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.layers import COAT, LAYER_CHANNELS, layer_channels
+from lightmeter.scenes.layers import COAT, GRAIN, LAYER_CHANNELS, layer_channels
 from lightmeter.scenes.model import Material, Scene, Texture, Vector
 from lightmeter.scenes.points import SurfacePoints
 
@@ -16,7 +16,7 @@ from .projection import projection_matrix, view_matrix
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
-CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT)
+CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT, *GRAIN)
 """What effects may read. A channel that is the same everywhere, or of a layer that no material has, costs nothing."""
 
 
@@ -37,6 +37,7 @@ ATTACHMENTS = (
     Attachment("specular_occlusion", ("specular", "occlusion"), "vec2(specular_factor, occlusion)", 2),
     Attachment("clearcoat_factors", COAT[:2], "vec2(clearcoat, clearcoat_roughness)", 2),
     Attachment("clearcoat_normal", COAT[2:], "vec4(clearcoat_normal, 0.0)"),
+    Attachment("grain", GRAIN, "vec4(anisotropy_direction, anisotropy)"),
 )
 PARTS: dict[str, tuple[str, slice | int]] = {
     "position": ("position", slice(3)),
@@ -49,6 +50,8 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "clearcoat": ("clearcoat_factors", 0),
     "clearcoat_roughness": ("clearcoat_factors", 1),
     "clearcoat_normal": ("clearcoat_normal", slice(3)),
+    "anisotropy": ("grain", 3),
+    "anisotropy_direction": ("grain", slice(3)),
 }
 """Where in the attachments each channel lies."""
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
@@ -66,7 +69,7 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
         "roughness": "metallic_roughness" in slots,
         "specular": False,
     }
-    varying |= {name: name in slots for name in layer_channels(scene) if name != "clearcoat_normal"}
+    varying |= {name: name in slots for name in layer_channels(scene) if name in COAT[:2]}
     constants: dict[str, float | Vector] = {} if "occlusion" in slots else {"occlusion": 1.0}
     for name, varies in varying.items():
         values = {getattr(material, name) for material in materials}
@@ -107,7 +110,7 @@ class GBuffer:
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
-        self.channels = channels - (frozenset(COAT) - set(layer_channels(scene)))
+        self.channels = channels - (frozenset((*COAT, *GRAIN)) - set(layer_channels(scene)))
         varying = self.channels - set(self.constants)
         attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
         self.textures = {a.name: device.target(size, a.components) for a in attachments}
@@ -253,6 +256,8 @@ def material_uniforms(material: Material) -> dict[str, object]:
         "normal_scale": material.normal_scale,
         "occlusion_strength": material.occlusion_strength,
         "alpha_cutoff": material.alpha_cutoff,
+        "anisotropy_factor": material.anisotropy,
+        "grain_turn": np.array([np.cos(material.anisotropy_rotation), np.sin(material.anisotropy_rotation)]),
         "clearcoat_factor": material.clearcoat,
         "clearcoat_roughness_factor": material.clearcoat_roughness,
         "clearcoat_normal_scale": material.clearcoat_normal_scale,

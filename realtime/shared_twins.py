@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import arrays, clear_coat, environment, frames, lights, material, microfacet
+from lightmeter.scenes.optics import anisotropy, arrays, clear_coat, environment, frames, lights, material, microfacet
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -206,6 +206,45 @@ def above_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list
     return [*others, roughness, n, v, light]
 
 
+def across_normal(grain: np.ndarray, n: np.ndarray) -> np.ndarray:
+    """The grain laid across the normal; beside it where the two agree."""
+    grain = grain - n * np.sum(n * grain, axis=0)
+    grain = np.where(np.linalg.norm(grain, axis=0) > 1e-3, grain, frames.basis(n, stack)[0])
+    return grain / np.linalg.norm(grain, axis=0)
+
+
+def with_grain(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A grain across the normal, light near the mirror, and both directions above the surface."""
+    roughness, strength, grain, n, v, light = inputs
+    unused = np.zeros_like(roughness)
+    *_, n, v, light = above(rng, near_the_mirror(rng, [unused, unused, roughness, unused, n, v, light]))
+    return [roughness, strength, across_normal(grain, n), n, v, light]
+
+
+def along_grain(tangent, bitangent_sign, normal, shading_normal, grain):
+    """The direction of the grain, of a pair."""
+    return frames.along_grain(tangent, bitangent_sign, normal, shading_normal, grain[0], grain[1], stack)
+
+
+def leaning_tangents(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """The tangent across the normal, the shading normal within a radian of it: else next to nothing is left."""
+    tangent, bitangent_sign, normal, shading_normal, grain = inputs
+    tangent = across_normal(tangent, normal)
+    shading_normal = normal + 0.5 * shading_normal
+    length = np.maximum(np.linalg.norm(grain, axis=0), 0.05)
+    return [tangent, bitangent_sign, normal, shading_normal / np.linalg.norm(shading_normal, axis=0), grain / length]
+
+
+def d_ggx_anisotropic(h, along, across_it):
+    """D of the half vector's components."""
+    return anisotropy.d_ggx(h[0], h[1], h[2], along, across_it)
+
+
+GRAIN_LOBE_ROUNDINGS = 1 + 3 + 2 + 1 + 3 + (2 * (2.5 + 3) + 4 + 2.5) + (3 + 3 + 3 + 1 + 1 + 2.5) + 2
+"""v + l, its square (3), inversesqrt (2) and the product, the components (3); D: two ratios and their squares' sum, all
+squared, three products and the division; masking: the stretched vector (3), its length (3 + 3), a product, a sum and
+the division; both times ½."""
+
 COAT_LOBE_ROUNDINGS = 1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 3
 """The half vector (12), D (16), V (12.5), n·l and its products (3)."""
 
@@ -391,6 +430,71 @@ TWINS = (
         arrange=above_the_mirror,
         signs=lambda _base, _clearcoat, _roughness, n, v, light: lit_signs(n, v, light),
         cancels=1.0,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "turned",
+        "vec2",
+        tuple(Argument(name, "vec2", uniform(-1, 1, 2), ((1.0, 0.0), (0.0, 1.0))) for name in ("by", "direction")),
+        lambda by, d: stack(by[0] * d[0] - by[1] * d[1], by[1] * d[0] + by[0] * d[1]),
+        roundings=2,
+        why="two products and a sum",
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "across",
+        "vec3",
+        (towards("n"),),
+        lambda n: frames.basis(n, stack)[0],
+        roundings=1 + 2.5 + 4,
+        why="the sum, the division (2.5), the products (3) and a sum",
+        cancels=1.0,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "along_grain",
+        "vec3",
+        (
+            towards("tangent"),
+            Argument("bitangent_sign", "float", lambda rng, n: rng.choice([-1.0, 1.0], n)),
+            towards("normal"),
+            towards("shading_normal"),
+            Argument("grain", "vec2", uniform(-1, 1, 2), ((1.0, 0.0), (0.0, 1.0))),
+        ),
+        along_grain,
+        roundings=2 + 3 + 3 + 2 + 3 + 2 + 1,
+        why="the cross product (2), the sum of two products (3), n·d (3), its product and the difference, the square "
+        "(3), inversesqrt (2) and the product",
+        arrange=leaning_tangents,
+        guards=("1e-12",),
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "d_ggx_anisotropic",
+        "float",
+        (towards("h"), alpha("along"), alpha("across_it")),
+        d_ggx_anisotropic,
+        roundings=2 * (2.5 + 1 + 2) + 4 + 2.5,
+        why="the ratios (2.5), their squares and sum (3), all squared; four products, the division",
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "grain_lobe",
+        "float",
+        (
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            unit("strength"),
+            towards("grain"),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        lambda roughness, strength, grain, n, v, light: anisotropy.lobe(
+            anisotropy.Grain(strength, grain), microfacet.alpha_from_roughness(roughness), n, v, light
+        ),
+        roundings=GRAIN_LOBE_ROUNDINGS,
+        why="see GRAIN_LOBE_ROUNDINGS",
+        arrange=with_grain,
     ),
     Twin(
         "lights.glsl",

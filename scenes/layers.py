@@ -3,14 +3,18 @@
 from .model import Scene
 
 COAT = ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
-LAYER_CHANNELS = {"coat": COAT}
+GRAIN = ("anisotropy", "anisotropy_direction")
+LAYER_CHANNELS = {"coat": COAT, "grain": GRAIN}
 """The parameters of each layer, as `SurfacePoints` names them."""
 
 
 def layer_channels(scene: Scene) -> tuple[str, ...]:
     """The parameters that the scene's layers have; a coat's normal only where it may differ from its base's."""
-    coated = [shape.material for shape in scene.shapes if "coat" in shape.material.layers]
-    if not coated:
-        return ()
-    own_normal = any(not material.textures.keys().isdisjoint({"normal", "clearcoat_normal"}) for material in coated)
-    return COAT if own_normal else COAT[:2]
+    materials = [shape.material for shape in scene.shapes]
+    coated = [material for material in materials if "coat" in material.layers]
+    found: tuple[str, ...] = ()
+    if coated:
+        found += COAT if any(material.has_normal_map for material in coated) else COAT[:2]
+    if any("grain" in material.layers for material in materials):
+        found += GRAIN
+    return found

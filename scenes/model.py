@@ -105,6 +105,9 @@ class Material:
         clearcoat, clearcoat_roughness: KHR_materials_clearcoat, 0…1; 0: there is no coat.
         clearcoat_texture, clearcoat_roughness_texture: factors in red and in green.
         clearcoat_normal_texture: without one the coat is smooth, whatever the base's normal texture does.
+        anisotropy: KHR_materials_anisotropy's strength, 0…1; 0: the gloss is alike in all directions.
+        anisotropy_rotation: of the grain, from the tangent towards the bitangent, radians.
+        anisotropy_texture: the grain's direction in red and green (0…1 stands for −1…1), a factor in blue.
         left_out: extensions of its file that are not read and would change how it looks.
     """
 
@@ -131,6 +134,9 @@ class Material:
     clearcoat_roughness_texture: Texture | None = None
     clearcoat_normal_texture: Texture | None = None
     clearcoat_normal_scale: float = 1.0
+    anisotropy: float = 0.0
+    anisotropy_rotation: float = 0.0
+    anisotropy_texture: Texture | None = None
     left_out: tuple[str, ...] = ()
 
     @property
@@ -139,18 +145,26 @@ class Material:
         slots = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
         if self.clearcoat > 0:
             slots += ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
+        if self.anisotropy > 0:
+            slots += ("anisotropy",)
         found = {slot: getattr(self, f"{slot}_texture") for slot in slots}
         return {slot: texture for slot, texture in found.items() if texture is not None}
 
     @property
     def layers(self) -> frozenset[str]:
-        """What it has beyond the metallic-roughness base: "coat"."""
-        return frozenset({"coat"} if self.clearcoat > 0 else ())
+        """What it has beyond the metallic-roughness base: "coat", "grain" (anisotropy)."""
+        there = {"coat": self.clearcoat > 0, "grain": self.anisotropy > 0}
+        return frozenset(name for name, is_there in there.items() if is_there)
+
+    @property
+    def has_normal_map(self) -> bool:
+        """Whether any of its normals is not the mesh's."""
+        return not self.textures.keys().isdisjoint({"normal", "clearcoat_normal"})
 
     @property
     def uses_tangents(self) -> bool:
         """Whether its mesh needs tangents."""
-        return not self.textures.keys().isdisjoint({"normal", "clearcoat_normal"})
+        return self.has_normal_map or self.anisotropy > 0
 
     @property
     def emits(self) -> bool:

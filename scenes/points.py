@@ -21,6 +21,8 @@ class SurfacePoints:
         triangle: (H, W) int32, index into the shape's triangles, −1 where nothing is hit.
         clearcoat, clearcoat_roughness: (H, W) each, 0…1; None where the scene has no coats.
         clearcoat_normal: (H, W, 3) unit normal of the coat, turned as `normal` is; None where it is that everywhere.
+        anisotropy: (H, W) strength, 0…1; None where no material has a grain.
+        anisotropy_direction: (H, W, 3) unit, along the grain, across `normal`; None likewise.
     """
 
     position: np.ndarray
@@ -37,6 +39,8 @@ class SurfacePoints:
     clearcoat: np.ndarray | None = None
     clearcoat_roughness: np.ndarray | None = None
     clearcoat_normal: np.ndarray | None = None
+    anisotropy: np.ndarray | None = None
+    anisotropy_direction: np.ndarray | None = None
 
     @property
     def hit(self) -> np.ndarray:

@@ -66,12 +66,14 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
     if material.coat is not None:
         coat = dict(zip(COAT, (material.coat.factor, material.coat.roughness, material.coat.normal), strict=True))
         found |= {name: value for name, value in coat.items() if name in layers}
+    if material.grain is not None:
+        found |= {"anisotropy": material.grain.strength, "anisotropy_direction": material.grain.direction}
     dr.eval(list(found.values()))
     return {name: np.broadcast_to(value.numpy().T, (len(where), *_extent(name))) for name, value in found.items()}
 
 
 def _extent(name: str) -> tuple[int, ...]:
-    return (3,) if name in VECTORS or name == "clearcoat_normal" else ()
+    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction") else ()
 
 
 def _barycentric(corners: SurfacePoint, position):

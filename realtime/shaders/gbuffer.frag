@@ -15,6 +15,11 @@ uniform float clearcoat_factor;
 uniform float clearcoat_roughness_factor;
 uniform float clearcoat_normal_scale;
 #endif
+#ifdef LAYER_GRAIN
+#include "anisotropy.glsl"
+uniform float anisotropy_factor;
+uniform vec2 grain_turn; // cosine and sine
+#endif
 uniform int shape;
 in vec3 world_position;
 in vec3 vertex_normal;
@@ -65,6 +70,20 @@ void main() {
     float occlusion = 1.0;
 #ifdef TEXTURE_OCCLUSION
     occlusion = 1.0 + occlusion_strength * (look_up_occlusion().r - 1.0);
+#endif
+#ifdef LAYER_GRAIN
+    float anisotropy = anisotropy_factor;
+    vec2 grain = grain_turn;
+#ifdef TEXTURE_ANISOTROPY
+    vec3 grain_texel = look_up_anisotropy().rgb;
+    anisotropy *= grain_texel.b;
+    grain = turned(grain, 2.0 * grain_texel.rg - 1.0);
+#endif
+#ifdef HAS_TANGENT
+    vec3 anisotropy_direction = along_grain(vertex_tangent.xyz, vertex_tangent.w, vertex_normal, normal, grain);
+#else
+    vec3 anisotropy_direction = across(normal);
+#endif
 #endif
 #ifdef LAYER_COAT
     float clearcoat = clearcoat_factor;

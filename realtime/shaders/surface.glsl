@@ -15,6 +15,9 @@ uniform sampler2D gbuffer_clearcoat_factors;
 #ifdef GBUFFER_CLEARCOAT_NORMAL
 uniform sampler2D gbuffer_clearcoat_normal;
 #endif
+#ifdef GBUFFER_GRAIN
+uniform sampler2D gbuffer_grain;
+#endif
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -26,6 +29,10 @@ struct Surface {
     float roughness;
     float specular;
     float occlusion;
+#ifdef LAYER_GRAIN
+    float anisotropy;
+    vec3 anisotropy_direction;
+#endif
 #ifdef LAYER_COAT
     float clearcoat;
     float clearcoat_roughness;
@@ -65,6 +72,11 @@ bool load_surface(ivec2 pixel, out Surface surface) {
     surface.clearcoat_normal = texelFetch(gbuffer_clearcoat_normal, pixel, 0).xyz;
 #elif defined(LAYER_COAT)
     surface.clearcoat_normal = surface.normal;
+#endif
+#ifdef GBUFFER_GRAIN
+    vec4 grain = texelFetch(gbuffer_grain, pixel, 0);
+    surface.anisotropy = grain.w;
+    surface.anisotropy_direction = grain.xyz;
 #endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;

@@ -1,4 +1,5 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
+_anisotropy)."""
 
 from typing import Any
 
@@ -8,7 +9,7 @@ from .radiant import color_and_strength
 from .textures import Textures
 
 EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
-CLEARCOAT = "KHR_materials_clearcoat"
+CLEARCOAT, ANISOTROPY = "KHR_materials_clearcoat", "KHR_materials_anisotropy"
 CODING = {True: "sRGB", False: "linear"}
 COLOURED = ("base_color", "emissive")
 """The textures whose colours glTF takes for sRGB-encoded; the others are linear."""
@@ -82,6 +83,8 @@ class Materials:
             extensions[SPECULAR] = {"specularFactor": material.specular}
         if "coat" in material.layers:
             extensions[CLEARCOAT] = _coat(material, info)
+        if "grain" in material.layers:
+            extensions[ANISOTROPY] = _grain(material, info)
         if extensions:
             content["extensions"] = extensions
             self.extensions |= set(extensions)
@@ -101,3 +104,9 @@ def _coat(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]
     if "clearcoat_normal" in info:
         coat["clearcoatNormalTexture"] = info["clearcoat_normal"] | {"scale": material.clearcoat_normal_scale}
     return coat
+
+
+def _grain(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """KHR_materials_anisotropy."""
+    grain = {"anisotropyStrength": material.anisotropy, "anisotropyRotation": material.anisotropy_rotation}
+    return grain | ({"anisotropyTexture": info["anisotropy"]} if "anisotropy" in info else {})

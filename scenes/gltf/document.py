@@ -264,6 +264,14 @@ class ClearCoat(Part):
     normal_texture: NormalTextureInfo | None = Field(None, alias="clearcoatNormalTexture")
 
 
+class Anisotropy(Part):
+    """KHR_materials_anisotropy."""
+
+    strength: Fraction = Field(0.0, alias="anisotropyStrength")
+    rotation: Number = Field(0.0, alias="anisotropyRotation")
+    texture: TextureInfo | None = Field(None, alias="anisotropyTexture")
+
+
 class Cone(Part):
     inner: Annotated[float, Field(strict=True, ge=0, le=1.5707964)] = Field(0.0, alias="innerConeAngle")
     outer: Annotated[float, Field(strict=True, gt=0, le=1.5707964)] = Field(0.7853981633974483, alias="outerConeAngle")

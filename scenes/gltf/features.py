@@ -7,6 +7,7 @@ from lightmeter.scenes.gltf.source import Source
 
 READ = {
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_specular",
@@ -19,7 +20,6 @@ HARMLESS = {
 }
 CONSEQUENCES = {
     "EXT_mesh_gpu_instancing": "instances are left out of both pictures",
-    "KHR_materials_anisotropy": "highlights are isotropic in both pictures",
     "KHR_materials_dispersion": "colours are not dispersed in either picture",
     "KHR_materials_ior": "the index of refraction is 1.5 in both pictures",
     "KHR_materials_iridescence": "the thin film is left out of both pictures",

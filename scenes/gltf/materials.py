@@ -1,4 +1,5 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
+_anisotropy)."""
 
 from typing import Any
 
@@ -82,6 +83,7 @@ class Materials:
             alpha_cutoff=part.alpha_cutoff,
             double_sided=part.double_sided,
             **self._coat(part, place),
+            **self._grain(part, place),
             left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
 
@@ -101,6 +103,19 @@ class Materials:
             "clearcoat_roughness_texture": read(coat.roughness_texture, False, f"{here}.clearcoatRoughnessTexture"),
             "clearcoat_normal_texture": read(coat.normal_texture, False, f"{here}.clearcoatNormalTexture"),
             "clearcoat_normal_scale": coat.normal_texture.scale if coat.normal_texture else 1.0,
+        }
+
+    def _grain(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of anisotropy, where there is any."""
+        name = "KHR_materials_anisotropy"
+        grain = self._source.extension(part, name, document.Anisotropy, place)
+        if grain is None or grain.strength == 0:
+            return {}
+        here = f"{place}.extensions.{name}.anisotropyTexture"
+        return {
+            "anisotropy": grain.strength,
+            "anisotropy_rotation": grain.rotation,
+            "anisotropy_texture": self._textures.texture(grain.texture, False, here),
         }
 
     def _specular(self, part: document.Material, place: str) -> float:

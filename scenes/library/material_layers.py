@@ -1,13 +1,14 @@
-"""What lies over a material: coats of growing roughness and factor."""
+"""What lies over a material, or shapes its gloss: coats of growing roughness and factor, brushed metal."""
 
 import numpy as np
 
 from lightmeter.scenes import shapes
 from lightmeter.scenes.framing import look_at
 from lightmeter.scenes.model import Camera, DirectionalLight, Environment, Material, PointLight, Scene, Shape
+from lightmeter.scenes.tangents import with_tangents
 from lightmeter.scenes.toml.placing import unit
 
-SUMMARY = "The layers of materials: clear coats over roughness and over factor."
+SUMMARY = "The layers of materials: clear coats over roughness and over factor, and anisotropy."
 COLUMNS = 6
 RADIUS = 0.42
 
@@ -16,17 +17,20 @@ def rows() -> list[list[Material]]:
     """The materials, row by row from the top."""
     growing = [float(t) for t in np.linspace(0, 1, COLUMNS)]
     lacquer = {"base_color": (0.55, 0.05, 0.03), "roughness": 0.6}
+    steel = {"base_color": (0.75, 0.72, 0.68), "metallic": 1.0, "roughness": 0.3}
     return [
         # A smoother coat would show a punctual light as a highlight far smaller than a pixel.
         [Material(f"coat roughness {0.1 + 0.6 * t:.2f}", **lacquer, clearcoat=1, clearcoat_roughness=0.1 + 0.6 * t)
          for t in growing],
-        [Material(f"coat factor {t:.1f}", **lacquer, clearcoat=t, clearcoat_roughness=0.2) for t in growing],
+        [Material(f"coat factor {0.1 + 0.9 * t:.2f}", **lacquer, clearcoat=0.1 + 0.9 * t, clearcoat_roughness=0.2)
+         for t in growing],
+        [Material(f"anisotropy {0.1 + 0.9 * t:.2f}", **steel, anisotropy=0.1 + 0.9 * t) for t in growing],
     ]  # fmt: skip
 
 
 def scene() -> Scene:
     """Spheres in rows through a long lens, 30 m away, so that each is seen from the front."""
-    mesh = shapes.sphere(RADIUS, segments=64, rings=32)
+    mesh = with_tangents(shapes.sphere(RADIUS, segments=64, rings=32))
     made = []
     grid = rows()
     for row, materials in enumerate(grid):

@@ -14,8 +14,9 @@ own normal n_c for light (n_c·l > 0 and n_c·v > 0), while n·v > 0 decides for
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from . import anisotropy, clear_coat, microfacet
 from . import arrays as xp
-from . import clear_coat, microfacet
+from .anisotropy import Grain
 from .arrays import Array
 from .clear_coat import Coat
 from .frames import basis
@@ -26,13 +27,14 @@ DIELECTRIC_F0 = 0.04
 
 @dataclass(frozen=True)
 class MaterialPoint:
-    """A material's parameters at points: `base_color` (3, N), the others (N,), 0…1; `coat` None: there is none."""
+    """Parameters at points: `base_color` (3, N), the others (N,), 0…1; a layer that is None is not there."""
 
     base_color: Array
     metallic: Array
     roughness: Array
     specular: Array
     coat: Coat | None = None
+    grain: Grain | None = None
 
     @property
     def diffuse(self) -> Array:
@@ -76,11 +78,15 @@ def _base(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa:
     n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
     lit = (n_dot_v > 0) & (n_dot_l > 0)
     n_dot_h, sin2_h, v_dot_h = microfacet.half_cosines(n, v, l)
-    d = microfacet.d_ggx(n_dot_h, sin2_h, point.alpha)
-    visible = microfacet.v_smith_ggx_correlated(xp.maximum(n_dot_v, 1e-7), xp.maximum(n_dot_l, 1e-7), point.alpha)
+    if point.grain is None:
+        d = microfacet.d_ggx(n_dot_h, sin2_h, point.alpha)
+        visible = microfacet.v_smith_ggx_correlated(xp.maximum(n_dot_v, 1e-7), xp.maximum(n_dot_l, 1e-7), point.alpha)
+        gloss = d * visible
+    else:
+        gloss = anisotropy.lobe(point.grain, point.alpha, n, v, l)
     fresnel = microfacet.f_schlick(v_dot_h, point.f0, point.f90)
     above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
-    value = ((1 - above) * point.diffuse * (1 / PI) + fresnel * (d * visible)) * n_dot_l
+    value = ((1 - above) * point.diffuse * (1 / PI) + fresnel * gloss) * n_dot_l
     return xp.where(lit, value, 0 * value)
 
 
@@ -118,11 +124,13 @@ def _base_pdf(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # n
     """Density of `_sample_base`."""
     n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
     lit = (n_dot_v > 0) & (n_dot_l > 0)
-    n_dot_h, sin2_h, _ = microfacet.half_cosines(n, v, l)
-    alpha = point.alpha
-    d = microfacet.d_ggx(n_dot_h, sin2_h, alpha)
+    if point.grain is None:
+        n_dot_h, sin2_h, _ = microfacet.half_cosines(n, v, l)
+        mirrored = microfacet.mirrored_density(n_dot_v, microfacet.d_ggx(n_dot_h, sin2_h, point.alpha), point.alpha)
+    else:
+        mirrored = anisotropy.mirrored_density(point.grain, point.alpha, n, v, l)
     share = specular_probability(point, n_dot_v)
-    value = share * microfacet.mirrored_density(n_dot_v, d, alpha) + (1 - share) * (n_dot_l * (1 / PI))
+    value = share * mirrored + (1 - share) * (n_dot_l * (1 / PI))
     return xp.where(lit, value, 0 * value)
 
 
@@ -152,9 +160,14 @@ def sample(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Arra
 
 def _sample_base(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Array], vector: Callable) -> Array:
     """A direction from the specular or the diffuse lobe below the coat."""
-    s, t = basis(n, vector)
+    if point.grain is None:
+        s, t = basis(n, vector)
+        along = across = point.alpha
+    else:
+        s, t = point.grain.direction, xp.cross(n, point.grain.direction)
+        along, across = anisotropy.alphas(point.grain, point.alpha)
     local_v = vector(xp.dot(s, v), xp.dot(t, v), xp.maximum(xp.dot(n, v), 1e-6))
-    h = microfacet.sample_visible_normal(local_v, point.alpha, u[1], u[2], vector)
+    h = microfacet.sample_visible_normal(local_v, along, u[1], u[2], vector, across)
     mirrored = 2 * xp.dot(local_v, h) * h - local_v
     radius = xp.sqrt(u[1])
     sin_phi, cos_phi = xp.sincos(2 * PI * u[2])

@@ -115,6 +115,7 @@ class Builder:
         for key, value in values.items():
             if isinstance(value, entries.TextureEntry):
                 values[key] = self.texture(value, key in COLOURED, f"{place}.{key}")
+        values["anisotropy_rotation"] = float(np.radians(entry.anisotropy_rotation))
         return Material(name=name, **values)
 
     def texture(self, entry: entries.TextureEntry, srgb: bool, place: str) -> Texture:

@@ -112,6 +112,9 @@ class MaterialEntry(Strict):
     clearcoat_roughness_texture: TextureKey | None = Field(None, description="Factor in green.")
     clearcoat_normal_texture: TextureKey | None = None
     clearcoat_normal_scale: Number = 1.0
+    anisotropy: Fraction = Field(0.0, description="Strength (KHR_materials_anisotropy); 0: alike in all directions.")
+    anisotropy_rotation: Number = Field(0.0, description="Of the grain, from the tangent to the bitangent, degrees.")
+    anisotropy_texture: TextureKey | None = Field(None, description="Direction in red and green, factor in blue.")
 
 
 class CameraEntry(Strict):

@@ -1,5 +1,7 @@
 """Layers of materials on the truth's side: the BSDF's sampling and values, textures, the oracles, closure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,15 +13,15 @@ from lightmeter.groundtruth.world import World
 from lightmeter.scenes import shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.model import Environment, Image, Material, PointLight, Scene, Shape, Texture
-from lightmeter.scenes.optics import clear_coat, lights
+from lightmeter.scenes.optics import anisotropy, clear_coat, lights
 from lightmeter.scenes.optics import material as optics
 
 from .noise import assert_same_mean
 from .small_scenes import floor, looking
-from .test_bsdf import seen_from, tilted, world_of
+from .test_bsdf import seen_from, tilted
 from .test_truth_closure import composed
 
-COATED = Material(base_color=(0.8, 0.3, 0.1), roughness=0.5, clearcoat=0.8, clearcoat_roughness=0.3)
+COATED = Material("coated", base_color=(0.8, 0.3, 0.1), roughness=0.5, clearcoat=0.8, clearcoat_roughness=0.3)
 
 
 def texel(*values: int) -> Texture:
@@ -27,6 +29,8 @@ def texel(*values: int) -> Texture:
     return Texture(Image(np.array([[values]], np.uint8)))
 
 
+BRUSHED = Material("brushed", (0.8, 0.6, 0.5), metallic=1.0, roughness=0.4, anisotropy=0.7, anisotropy_rotation=0.4)
+LAYERED = (COATED, BRUSHED)
 BUMPY = Material(
     base_color=(0.8, 0.3, 0.1),
     roughness=0.5,
@@ -37,6 +41,9 @@ BUMPY = Material(
     clearcoat_roughness_texture=texel(5, 102, 8),
     clearcoat_normal_texture=texel(160, 120, 220),
     clearcoat_normal_scale=0.5,
+    anisotropy=0.8,
+    anisotropy_rotation=0.2,
+    anisotropy_texture=texel(255, 200, 153),
 )
 
 
@@ -48,11 +55,28 @@ def scene_of(material: Material, **given) -> Scene:
     )
 
 
+def layered(parameters: Material, count: int) -> optics.MaterialPoint:
+    """A material without textures at many points of the floor, whose tangent is +X and whose bitangent is −Z."""
+    up = np.tile([[0.0], [1.0], [0.0]], count)
+    color = np.repeat(np.array(parameters.base_color)[:, None], count, 1)
+    scalars = (np.full(count, x, float) for x in (parameters.metallic, parameters.roughness, parameters.specular))
+    point = optics.MaterialPoint(color, *scalars)
+    if parameters.clearcoat:
+        factors = (np.full(count, x) for x in (parameters.clearcoat, parameters.clearcoat_roughness))
+        point = replace(point, coat=clear_coat.Coat(*factors, up))
+    if parameters.anisotropy:
+        turn = parameters.anisotropy_rotation
+        direction = np.tile([[np.cos(turn)], [0], [-np.sin(turn)]], count)
+        point = replace(point, grain=anisotropy.Grain(np.full(count, parameters.anisotropy), direction))
+    return point
+
+
+@pytest.mark.parametrize("material", LAYERED, ids=lambda material: material.name)
 @pytest.mark.parametrize("degrees", [20, 75])
-def test_the_bsdf_is_the_optics(degrees):
+def test_the_bsdf_is_the_optics(material, degrees):
     """Values and densities against float64, to float32's 2e-4 as of the material without layers (test_bsdf.py)."""
     count = 4096
-    world, view = world_of(COATED), tilted(degrees)
+    world, view = World.of(scene_of(material)), tilted(degrees)
     rng = np.random.default_rng(3)
     u = rng.random((3, count)).astype(np.float32)
     si, bsdf = seen_from(world, view, count)
@@ -60,11 +84,7 @@ def test_the_bsdf_is_the_optics(degrees):
     value, density = bsdf.eval_pdf(mi.BSDFContext(), si, drawn.wo)
     up = np.zeros((3, count))
     up[1] = 1
-    point = optics.MaterialPoint(
-        np.repeat(np.array(COATED.base_color)[:, None], count, 1),
-        *(np.full(count, x, float) for x in (COATED.metallic, COATED.roughness, 1)),
-        clear_coat.Coat(np.full(count, 0.8), np.full(count, 0.3), up),
-    )
+    point = layered(material, count)
     light, seen = si.to_world(drawn.wo).numpy().astype(float), np.repeat(view[:, None], count, 1)
     np.testing.assert_allclose(value.numpy(), optics.evaluate(point, up, seen, light), rtol=2e-4, atol=1e-6)
     np.testing.assert_allclose(density.numpy(), optics.pdf(point, up, seen, light), rtol=2e-4, atol=1e-6)
@@ -100,6 +120,13 @@ def test_textures_are_read_by_their_channels():
     expected = np.array([x, z, -y]) / np.linalg.norm([x, y, z])
     np.testing.assert_allclose(points.clearcoat_normal.reshape(-1, 3), np.tile(expected, (16, 1)), atol=1e-6)
     assert np.abs(points.clearcoat_normal - points.normal).max() > 0.1
+    np.testing.assert_allclose(points.anisotropy, 0.8 * 153 / 255, rtol=1e-6)
+    turn = np.arctan2(2 * 200 / 255 - 1, 1) + 0.2
+    flat = np.array([np.cos(turn), 0, -np.sin(turn)])
+    normal = points.normal[0, 0].astype(float)
+    across = flat - normal * (flat @ normal)
+    found = points.anisotropy_direction.reshape(-1, 3)
+    np.testing.assert_allclose(found, np.tile(across / np.linalg.norm(across), (16, 1)), atol=1e-6)
 
 
 def test_a_smooth_coat_over_a_bumpy_base_keeps_the_surface_s_normal():
@@ -111,6 +138,7 @@ def test_a_smooth_coat_over_a_bumpy_base_keeps_the_surface_s_normal():
 def test_without_coats_there_are_no_parameters_and_without_normal_maps_no_second_normal():
     bare = surface_points(World.of(scene_of(Material())), (4, 4))
     assert bare.clearcoat is None and bare.clearcoat_roughness is None and bare.clearcoat_normal is None
+    assert bare.anisotropy is None and bare.anisotropy_direction is None
     coated = surface_points(World.of(scene_of(COATED)), (4, 4))
     assert (coated.clearcoat == np.float32(0.8)).all() and coated.clearcoat_normal is None
 
@@ -122,12 +150,12 @@ def test_the_oracle_of_direct_light_is_the_definition():
     points = surface_points(world, (8, 8))
     found = direct.evaluate(world, points, 0).reshape(-1, 3).T
     at = points.at(points.hit)
-    vectors = (a.astype(float).T for a in (at.normal, at.view, at.base_color, at.clearcoat_normal, at.position))
-    normal, view, color, coat_normal, position = vectors
-    scalars = (a.astype(float) for a in (at.metallic, at.roughness, at.specular))
-    coat = clear_coat.Coat(at.clearcoat.astype(float), at.clearcoat_roughness.astype(float), coat_normal)
-    towards, inverse_square = lights.from_position(np.array(lamp.position)[:, None], position)
-    value = optics.evaluate(optics.MaterialPoint(color, *scalars, coat), normal, view, towards)
+    at = at.each(lambda a: a.astype(float).T)
+    coat = clear_coat.Coat(at.clearcoat, at.clearcoat_roughness, at.clearcoat_normal)
+    grain = anisotropy.Grain(at.anisotropy, at.anisotropy_direction)
+    point = optics.MaterialPoint(at.base_color, at.metallic, at.roughness, at.specular, coat, grain)
+    towards, inverse_square = lights.from_position(np.array(lamp.position)[:, None], at.position)
+    value = optics.evaluate(point, at.normal, at.view, towards)
     np.testing.assert_allclose(found, np.array(lamp.intensity)[:, None] * inverse_square * value, rtol=1e-5)
 
 

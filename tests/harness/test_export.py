@@ -81,6 +81,9 @@ def everything() -> Scene:
         clearcoat_roughness_texture=Texture(grey, rotation=0.1),
         clearcoat_normal_texture=Texture(rgb, wrap_u="mirror"),
         clearcoat_normal_scale=0.3,
+        anisotropy=1 / 3,
+        anisotropy_rotation=0.7,
+        anisotropy_texture=Texture(rgb, wrap_v="clamp"),
     )
     bump = with_tangents(shapes.sphere(0.5, segments=8))
     bump = replace(bump, texcoords=(*bump.texcoords, bump.texcoords[0] * 2))

@@ -8,7 +8,7 @@ from lightmeter.scenes import shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Image, Material, Shape, Texture
-from lightmeter.scenes.optics import clear_coat, material
+from lightmeter.scenes.optics import anisotropy, clear_coat, material
 
 from .direct_definition import exact_direct, inputs_of
 from .small_scenes import LAMP, WHITE, facing, moved, renderer, scene_of
@@ -26,24 +26,30 @@ def card(**given) -> Shape:
     return Shape("card", mesh, made)
 
 
-def exact_coated(scene, points) -> np.ndarray:
+def exact(scene, points) -> np.ndarray:
     """`direct` of the first light at the points where something is seen, (3, N) float64."""
-    at = points.at(points.hit)
-    normal = at.normal if at.clearcoat_normal is None else at.clearcoat_normal
-    coat = clear_coat.Coat(*(a.astype(float) for a in (at.clearcoat, at.clearcoat_roughness)), normal.astype(float).T)
+    at = points.at(points.hit).each(lambda a: a.astype(float).T)
+    coat = grain = None
+    if at.clearcoat is not None:
+        normal = at.normal if at.clearcoat_normal is None else at.clearcoat_normal
+        coat = clear_coat.Coat(at.clearcoat, at.clearcoat_roughness, normal)
+    if at.anisotropy is not None:
+        grain = anisotropy.Grain(at.anisotropy, at.anisotropy_direction)
 
-    def coated(base_color, metallic, roughness, specular, n, v, to_light):
-        point = material.MaterialPoint(base_color, metallic, roughness, specular, coat)
+    def layered(base_color, metallic, roughness, specular, n, v, to_light):
+        point = material.MaterialPoint(base_color, metallic, roughness, specular, coat, grain)
         return material.evaluate(point, n, v, to_light)
 
     light = scene.lights[0]
-    return exact_direct(light, *inputs_of(points, light), model=coated)
+    return exact_direct(light, *inputs_of(points, light), model=layered)
 
 
 SCENES = {
     "library": lambda: load("material-layers"),
     "normal map of the coat": lambda: scene_of(card(clearcoat=1.0, clearcoat_normal_texture=BUMPY), lights=(LAMP,)),
     "normal map of the base": lambda: scene_of(card(clearcoat=1.0, normal_texture=BUMPY), lights=(LAMP,)),
+    "grain": lambda: scene_of(card(anisotropy=0.9, anisotropy_rotation=0.5), lights=(LAMP,)),
+    "normal map and grain": lambda: scene_of(card(anisotropy=0.9, normal_texture=BUMPY), lights=(LAMP,)),
     "factors": lambda: scene_of(card(clearcoat=0.9, clearcoat_texture=FACTORS), lights=(LAMP,)),
 }
 
@@ -53,10 +59,10 @@ def test_cook_torrance_is_the_definition(device, name):
     """To 1e-3 of the value, and 1e-4 of the mean, as of the effect without layers (test_shading_models.py)."""
     scene = SCENES[name]()
     seen = renderer(device, scene, (40, 40), Choice(only=("cook_torrance",))).capture()
-    value = exact_coated(scene, seen.points)
+    value = exact(scene, seen.points)
     got = seen.direct[0][seen.points.hit].T
     np.testing.assert_allclose(got, value, rtol=1e-3, atol=1e-4 * value.mean())
-    bare = renderer(device, scene, (40, 40), Choice(only=("lambert",))).capture().direct[0][seen.points.hit].T
+    bare = renderer(device, scene, (40, 40), Choice(only=("minnaert",))).capture().direct[0][seen.points.hit].T
     assert np.abs(bare - value).mean() > 0.05 * value.mean()
 
 
@@ -73,6 +79,27 @@ def test_the_maps_are_told_apart(device):
     assert factors.clearcoat_normal is None and seen["library"].clearcoat_normal is None
 
 
+def test_the_grain_is_turned_by_angle_and_texel(device):
+    """A texel that points along the bitangent (green 1) turns by a quarter, the angle by its own; blue is a factor."""
+    texel = Texture(Image(np.array([[[128, 255, 51]]], np.uint8)))
+    turned = scene_of(card(anisotropy=0.5, anisotropy_rotation=0.3, anisotropy_texture=texel))
+    seen = renderer(device, turned, (8, 8)).capture(terms=False).points
+    direction = seen.anisotropy_direction[seen.hit]
+    angle = np.arctan2(1.0, 2 * 128 / 255 - 1) + 0.3
+    np.testing.assert_allclose(direction, np.tile([np.cos(angle), np.sin(angle), 0], (len(direction), 1)), atol=1e-6)
+    np.testing.assert_allclose(seen.anisotropy[seen.hit], 0.5 * 51 / 255, rtol=1e-6)
+
+
+def test_other_parts_than_the_material_s_own_know_no_grain(device):
+    """Another distribution is the same with and without."""
+    seen = []
+    for strength in (0.9, 0.0):
+        scene = scene_of(card(anisotropy=strength), lights=(LAMP,))
+        choice = Choice(only=("cook_torrance",), settings={"cook_torrance": {"distribution": "beckmann"}})
+        seen.append(renderer(device, scene, (8, 8), choice).capture().direct[0])
+    assert np.array_equal(*seen)
+
+
 def test_a_coat_in_constant_light_takes_and_mirrors_its_share(device):
     """Over black c·F remains, to rounding. The definition has c·F·E: what 1 − E loses is the effect's own error."""
     coat = Material("coat", (0.0, 0.0, 0.0), specular=0.0, clearcoat=0.8, clearcoat_roughness=0.5)
@@ -83,9 +110,9 @@ def test_a_coat_in_constant_light_takes_and_mirrors_its_share(device):
     np.testing.assert_allclose(got[:, 1], 0.8 * (0.04 + 0.96 * (1 - cosine) ** 5), rtol=1e-4)
 
 
-def test_a_coat_costs_what_it_needs_and_nothing_where_there_is_none():
+def test_a_layer_costs_what_it_needs_and_nothing_where_there_is_none():
     """A coat that is the same everywhere: nothing but arithmetic; factors that differ: one attachment; a normal map
-    of its own: another, and the map itself.
+    of its own: another, and the map itself. A grain: one attachment.
     """
     ball = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
     bare = counted(scene_of(card(), lights=(LAMP,)))
@@ -98,5 +125,7 @@ def test_a_coat_costs_what_it_needs_and_nothing_where_there_is_none():
     assert mixed[1] == plain[1]
     # A bumpy card is not flat: light can be in its own way, and come from itself.
     alone = Choice(without=("shadow_map", "constant_ambient"))
+    grain = counted(scene_of(card(anisotropy=0.5), lights=(LAMP,)))
+    assert grain[1]["textures"] == bare[1]["textures"] + 1 and grain[1]["shaders"] == bare[1]["shaders"]
     mapped = counted(scene_of(card(clearcoat=0.5, clearcoat_normal_texture=BUMPY), lights=(LAMP,)), alone)
     assert mapped[1]["textures"] == bare[1]["textures"] + 2
