@@ -25,6 +25,8 @@ SCATTERING_SLOTS = frozenset(
         "clearcoat_roughness",
         "clearcoat_normal",
         "anisotropy",
+        "sheen_color",
+        "sheen_roughness",
     }
 )
 MASK = "mask"

@@ -14,9 +14,10 @@ from lightmeter.scenes.optics import frames
 from lightmeter.scenes.optics.anisotropy import Grain
 from lightmeter.scenes.optics.clear_coat import Coat
 from lightmeter.scenes.optics.material import MaterialPoint
+from lightmeter.scenes.optics.sheen import Sheen
 from lightmeter.scenes.optics.texture import TexelGrid
 
-ALL_SLOTS = frozenset(SLOTS) | {"color", "coat", "grain"}
+ALL_SLOTS = frozenset(SLOTS) | {"color", "coat", "grain", "sheen"}
 
 
 @dataclass
@@ -125,7 +126,10 @@ class SurfacePoint:
             metallic, roughness = metallic * texel[2], roughness * texel[1]
         coat = self._coat if "coat" in self.slots else None
         grain = self._grain if "grain" in self.slots else None
-        return MaterialPoint(mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2], coat, grain)
+        sheen = self._sheen if "sheen" in self.slots else None
+        return MaterialPoint(
+            mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2], coat, grain, sheen
+        )
 
     @property
     def _coat(self) -> Coat:
@@ -147,6 +151,17 @@ class SurfacePoint:
         n = self._corners(mi.Vector3f, self.tables.normals, 3 * self.first_triangle, mi.UInt32(1))
         direction = frames.along_grain(*self._tangent_and_sign(), n, self.normal, x, y, mi.Vector3f)
         return Grain(strength, direction)
+
+    @property
+    def _sheen(self) -> Sheen:
+        *color, roughness = dr.gather(mi.Vector4f, self.tables.sheen_floats, self.shape, self.active)
+        color = mi.Color3f(*color)
+        if "sheen_color" in self.slots:
+            texel = self.texel("sheen_color")
+            color = color * mi.Color3f(texel[0], texel[1], texel[2])
+        if "sheen_roughness" in self.slots:
+            roughness = roughness * self.texel("sheen_roughness")[3]
+        return Sheen(color, roughness, self.tables.sheen_albedo)
 
     @property
     def emission(self):

@@ -11,6 +11,7 @@ import numpy as np
 
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Mesh, Scene, Shape, Texture
+from lightmeter.scenes.optics import sheen
 from lightmeter.scenes.optics.texture import TexelGrid, linear_texels
 
 SLOTS = (
@@ -23,6 +24,8 @@ SLOTS = (
     "clearcoat_roughness",
     "clearcoat_normal",
     "anisotropy",
+    "sheen_color",
+    "sheen_roughness",
 )
 
 _NEUTRAL = {slot: np.ones((1, 1, 4), np.float32) for slot in SLOTS} | {
@@ -42,6 +45,8 @@ class Tables:
         shape_floats: 16 per shape: base colour and alpha; metallic, roughness, specular, normal scale; emissive and
             alpha cut-off; occlusion strength, clear coat, its roughness and normal scale.
         grain_floats: 4 per shape: strength of the anisotropy, the grain's direction along tangent and bitangent, 0.
+        sheen_floats: 4 per shape: colour and roughness of the sheen.
+        sheen_albedo: the sheen's table of albedos, flat; one element where no material has a sheen.
         slot_ints: 8 per shape × slot: first texel, first texture coordinate, its stride, width, height, wrap u,
             wrap v, nearest.
         slot_floats: 8 per shape × slot: the texture's 2 × 3 matrix, 0, 0.
@@ -57,6 +62,8 @@ class Tables:
     shape_ints: object
     shape_floats: object
     grain_floats: object
+    sheen_floats: object
+    sheen_albedo: object
     slot_ints: object
     slot_floats: object
     positions: object
@@ -110,7 +117,8 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     no_tangent = tangents.add("none", lambda: [1, 0, 0, 1])
     no_color = colors.add("none", lambda: [1, 1, 1, 1])
     no_texcoord = texcoords.add("none", lambda: [0, 0])
-    shape_ints, shape_floats, grain_floats, slot_ints, slot_floats = [], [], [], [], []
+    shape_ints, shape_floats, slot_ints, slot_floats = [], [], [], []
+    grain_floats, sheen_floats = [], []
     first_triangle = 0
     keep = []  # so that no id() is given out twice while the tables are built
     for index, shape in enumerate(scene.shapes):
@@ -132,6 +140,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         shape_floats.append(_parameters(shape))
         turn = material.anisotropy_rotation
         grain_floats.append([material.anisotropy, np.cos(turn), np.sin(turn), 0.0])
+        sheen_floats.append([*material.sheen_color, material.sheen_roughness])
         first_triangle += len(mesh.triangles)
         for slot in SLOTS:
             texture = material.textures.get(slot)
@@ -150,7 +159,8 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     if not scene.shapes:
         corners.add("none", lambda: np.zeros((3, 3)))
         normals.add("none", lambda: np.zeros((3, 3)))
-        shape_ints, shape_floats, grain_floats = [[0] * 8], [[0.0] * 16], [[0.0] * 4]
+        shape_ints, shape_floats = [[0] * 8], [[0.0] * 16]
+        grain_floats, sheen_floats = [[0.0] * 4], [[0.0] * 4]
         slot_ints, slot_floats = [[0] * 8] * len(SLOTS), [[0.0] * 8] * len(SLOTS)
         texels.add("none", lambda: [1, 1, 1, 1])
     numbers = {number: index for index, number in enumerate(registry_ids) if number is not None}
@@ -160,6 +170,8 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         mi.UInt32(np.array(shape_ints, np.uint32).ravel()),
         mi.Float(np.array(shape_floats, np.float32).ravel()),
         mi.Float(np.array(grain_floats, np.float32).ravel()),
+        mi.Float(np.array(sheen_floats, np.float32).ravel()),
+        mi.Float(_sheen_albedo(scene)),
         mi.UInt32(np.array(slot_ints, np.uint32).ravel()),
         mi.Float(np.array(slot_floats, np.float32).ravel()),
         corners.array(),
@@ -173,6 +185,12 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     # Arrays of one element would be literals, baked into kernels.
     dr.make_opaque(*vars(tables).values())
     return tables
+
+
+def _sheen_albedo(scene: Scene) -> np.ndarray:
+    if not any("sheen" in shape.material.layers for shape in scene.shapes):
+        return np.zeros(1, np.float32)
+    return sheen.albedo_table().astype(np.float32).ravel()
 
 
 def _check(shape: Shape) -> None:

@@ -14,6 +14,7 @@ from lightmeter.groundtruth.world import World
 from lightmeter.scenes.optics import material as optics
 from lightmeter.scenes.optics.anisotropy import Grain
 from lightmeter.scenes.optics.clear_coat import Coat
+from lightmeter.scenes.optics.sheen import Sheen
 from lightmeter.scenes.points import SurfacePoints
 
 
@@ -50,6 +51,10 @@ class Vertices:
         if points.anisotropy is not None and points.anisotropy_direction is not None:
             rows = np.concatenate([points.anisotropy_direction, points.anisotropy[..., None]], axis=-1)
             self.grain = mi.Float(self._rows(rows))
+        self.sheen = None
+        if points.sheen_color is not None and points.sheen_roughness is not None:
+            rows = np.concatenate([points.sheen_color, points.sheen_roughness[..., None]], axis=-1)
+            self.sheen = mi.Float(self._rows(rows))
         flat = surface.SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
         face = mi.Float64(1) * mi.Vector3d(flat.face_cross)
         self.face = mi.Float(dr.ravel(mi.Vector3f(dr.normalize(face))))
@@ -119,7 +124,11 @@ class Vertex:
         if vertices.grain is not None:
             row = vector(mi.Vector4f, vertices.grain)
             grain = Grain(row[3], mi.Vector3f(row[0], row[1], row[2]))
-        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat, grain)
+        sheen = None
+        if vertices.sheen is not None:
+            row = vector(mi.Vector4f, vertices.sheen)
+            sheen = Sheen(mi.Color3f(row[0], row[1], row[2]), row[3], vertices.world.tables.sheen_albedo)
+        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat, grain, sheen)
         self.interaction = dr.zeros(mi.SurfaceInteraction3f, dr.width(place))
         self.interaction.p = vector(mi.Point3f, vertices.position)
         self.interaction.n = mi.Normal3f(self.face)
@@ -137,9 +146,12 @@ class Vertex:
         grain = material.grain
         if grain is not None:
             grain = Grain(mi.Float64(grain.strength), dr.normalize(mi.Vector3d(grain.direction)))
+        sheen = material.sheen
+        if sheen is not None:
+            sheen = Sheen(mi.Color3d(sheen.color), mi.Float64(sheen.roughness), mi.Float64(sheen.table))
         metallic, roughness = mi.Float64(material.metallic), mi.Float64(material.roughness)
         color, specular = mi.Color3d(material.base_color), mi.Float64(material.specular)
-        return optics.MaterialPoint(color, metallic, roughness, specular, coat, grain)
+        return optics.MaterialPoint(color, metallic, roughness, specular, coat, grain, sheen)
 
     def carries(self, light):
         """Bool: the transport's rule, light on the viewer's side of the geometric face, which must scatter."""

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.layers import COAT, GRAIN, LAYER_CHANNELS, layer_channels
+from lightmeter.scenes.layers import COAT, GRAIN, LAYER_CHANNELS, SHEEN, layer_channels
 from lightmeter.scenes.model import Material, Scene, Texture, Vector
+from lightmeter.scenes.optics.sheen import albedo_table
 from lightmeter.scenes.points import SurfacePoints
 
 from .background import Background
@@ -16,7 +17,7 @@ from .projection import projection_matrix, view_matrix
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
-CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT, *GRAIN)
+CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT, *GRAIN, *SHEEN)
 """What effects may read. A channel that is the same everywhere, or of a layer that no material has, costs nothing."""
 
 
@@ -38,6 +39,7 @@ ATTACHMENTS = (
     Attachment("clearcoat_factors", COAT[:2], "vec2(clearcoat, clearcoat_roughness)", 2),
     Attachment("clearcoat_normal", COAT[2:], "vec4(clearcoat_normal, 0.0)"),
     Attachment("grain", GRAIN, "vec4(anisotropy_direction, anisotropy)"),
+    Attachment("sheen", SHEEN, "vec4(sheen_color, sheen_roughness)"),
 )
 PARTS: dict[str, tuple[str, slice | int]] = {
     "position": ("position", slice(3)),
@@ -52,6 +54,8 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "clearcoat_normal": ("clearcoat_normal", slice(3)),
     "anisotropy": ("grain", 3),
     "anisotropy_direction": ("grain", slice(3)),
+    "sheen_color": ("sheen", slice(3)),
+    "sheen_roughness": ("sheen", 3),
 }
 """Where in the attachments each channel lies."""
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
@@ -69,7 +73,7 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
         "roughness": "metallic_roughness" in slots,
         "specular": False,
     }
-    varying |= {name: name in slots for name in layer_channels(scene) if name in COAT[:2]}
+    varying |= {name: name in slots for name in layer_channels(scene) if name in (*COAT[:2], *SHEEN)}
     constants: dict[str, float | Vector] = {} if "occlusion" in slots else {"occlusion": 1.0}
     for name, varies in varying.items():
         values = {getattr(material, name) for material in materials}
@@ -110,10 +114,11 @@ class GBuffer:
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
-        self.channels = channels - (frozenset((*COAT, *GRAIN)) - set(layer_channels(scene)))
+        self.channels = channels - (frozenset((*COAT, *GRAIN, *SHEEN)) - set(layer_channels(scene)))
         varying = self.channels - set(self.constants)
         attachments = [a for a in ATTACHMENTS if a.name == "position" or varying & set(a.channels)]
         self.textures = {a.name: device.target(size, a.components) for a in attachments}
+        self.tables = {"sheen_table": device.table(_sheen_table())} if "sheen_color" in self.channels else {}
         self.radiance = radiance
         emits = bool(scene.area_lights)
         if emits:
@@ -224,6 +229,11 @@ class GBuffer:
         return "\n".join(f"    out_{a.name} = {a.expression};" for a in self._attachments)
 
 
+def _sheen_table() -> np.ndarray:
+    """The sheen's albedo as a texture, (32, 32, 4) float32; the same in all components."""
+    return np.repeat(albedo_table()[..., None], 4, axis=2).astype(np.float32)
+
+
 def usable_slots(batch: Batch) -> tuple[tuple[str, int, bool, bool], ...]:
     """(slot, texture-coordinate set, mirrored in u, in v) of the textures whose coordinates the shape has."""
     found = []
@@ -256,6 +266,8 @@ def material_uniforms(material: Material) -> dict[str, object]:
         "normal_scale": material.normal_scale,
         "occlusion_strength": material.occlusion_strength,
         "alpha_cutoff": material.alpha_cutoff,
+        "sheen_color_factor": np.array(material.sheen_color),
+        "sheen_roughness_factor": material.sheen_roughness,
         "anisotropy_factor": material.anisotropy,
         "grain_turn": np.array([np.cos(material.anisotropy_rotation), np.sin(material.anisotropy_rotation)]),
         "clearcoat_factor": material.clearcoat,

@@ -73,7 +73,7 @@ class ShadingPass:
         self._uniforms[step].write()
         textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
-        textures |= self._tables
+        textures |= self._tables | self._stage.gbuffer.tables
         if self.own is not None and step.light is not None:
             textures |= self.own.textures(step.light)
         bind(program, textures)

@@ -2,7 +2,17 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import anisotropy, arrays, clear_coat, environment, frames, lights, material, microfacet
+from lightmeter.scenes.optics import (
+    anisotropy,
+    arrays,
+    clear_coat,
+    environment,
+    frames,
+    lights,
+    material,
+    microfacet,
+    sheen,
+)
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -247,6 +257,28 @@ the division; both times ½."""
 
 COAT_LOBE_ROUNDINGS = 1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 3
 """The half vector (12), D (16), V (12.5), n·l and its products (3)."""
+
+CURVE_ROUNDINGS = 2 + 3 + 8 + 2 + 2.5 + 3
+"""t (2), the coefficients (3), x to the power of c (8), 1 + b·…(2), the division (2.5), d·x + e (3)."""
+SHEEN_ROUNDINGS = 3 * CURVE_ROUNDINGS + 2 + 3
+"""Λ: three curves at most, their sum (2), exp (3); that of the exponent stands in the derivatives."""
+
+
+def white_sheen(roughness) -> sheen.Sheen:
+    """A sheen whose lobe alone matters."""
+    return sheen.Sheen(0.0, roughness, None)
+
+
+def under_open_sky(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A roughness of 0.3 and more, whose D is no power beyond float32, and directions above the surface."""
+    roughness, n, v, light = inputs
+    return [0.3 + 0.7 * roughness, *above(rng, [n, v, light])]
+
+
+def sheen_scaling(color, albedo_v, albedo_l):
+    """What is left of the base."""
+    return np.maximum(1 - color.max(axis=0) * np.maximum(albedo_v, albedo_l), 0)
+
 
 TWINS = (
     Twin(
@@ -495,6 +527,65 @@ TWINS = (
         roundings=GRAIN_LOBE_ROUNDINGS,
         why="see GRAIN_LOBE_ROUNDINGS",
         arrange=with_grain,
+    ),
+    Twin(
+        "sheen.glsl",
+        "d_charlie",
+        "float",
+        (
+            cosine("n_dot_h"),
+            Argument("sin2_h", "float", logarithmic(1e-3, 1.0), (0.9, 1.0)),
+            Argument("alpha", "float", logarithmic(0.1, 1.0), (1.0,)),
+        ),
+        sheen.d_charlie,
+        roundings=2.5 + 2 + 4 + 3 + 3,
+        why="1/α (2.5), its products (2), log near 1 (4 ε), exp (3), the sum and two products",
+        cancels=1.0,
+        guards=("1e-30",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_curve",
+        "float",
+        (cosine("x"), alpha("alpha")),
+        sheen.curve,
+        roundings=CURVE_ROUNDINGS,
+        why="see CURVE_ROUNDINGS",
+        cancels=5.0,
+        guards=("1e-30",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_shadowing",
+        "float",
+        (cosine("cosine"), alpha("alpha")),
+        sheen.shadowing,
+        roundings=SHEEN_ROUNDINGS * 17,
+        why="see SHEEN_ROUNDINGS; the exponent is up to 17, and its rounding that of as many",
+        guards=("0.5",),  # where the branches meet
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_lobe",
+        "float",
+        (unit("roughness", (0.5, 1.0)), towards("n"), towards("v"), towards("l")),
+        lambda roughness, n, v, light: sheen.lobe(white_sheen(roughness), n, v, light),
+        roundings=12 + 15 + SHEEN_ROUNDINGS * 17 + 6,
+        why="the half vector (12), D (15), Λ twice, the sum, products and the division (6)",
+        arrange=under_open_sky,
+        signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
+        cancels=1e-3,
+        guards=("1e-6",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_scaling",
+        "float",
+        (color("color"), unit("albedo_v"), unit("albedo_l")),
+        sheen_scaling,
+        roundings=2,
+        why="the product and the difference",
+        cancels=1.0,
     ),
     Twin(
         "lights.glsl",

@@ -4,7 +4,8 @@ from .model import Scene
 
 COAT = ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
 GRAIN = ("anisotropy", "anisotropy_direction")
-LAYER_CHANNELS = {"coat": COAT, "grain": GRAIN}
+SHEEN = ("sheen_color", "sheen_roughness")
+LAYER_CHANNELS = {"coat": COAT, "grain": GRAIN, "sheen": SHEEN}
 """The parameters of each layer, as `SurfacePoints` names them."""
 
 
@@ -17,4 +18,6 @@ def layer_channels(scene: Scene) -> tuple[str, ...]:
         found += COAT if any(material.has_normal_map for material in coated) else COAT[:2]
     if any("grain" in material.layers for material in materials):
         found += GRAIN
+    if any("sheen" in material.layers for material in materials):
+        found += SHEEN
     return found

@@ -108,6 +108,8 @@ class Material:
         anisotropy: KHR_materials_anisotropy's strength, 0…1; 0: the gloss is alike in all directions.
         anisotropy_rotation: of the grain, from the tangent towards the bitangent, radians.
         anisotropy_texture: the grain's direction in red and green (0…1 stands for −1…1), a factor in blue.
+        sheen_color, sheen_roughness: KHR_materials_sheen, 0…1; black: there is no sheen.
+        sheen_color_texture, sheen_roughness_texture: factors in red, green and blue (sRGB-encoded), and in alpha.
         left_out: extensions of its file that are not read and would change how it looks.
     """
 
@@ -137,6 +139,10 @@ class Material:
     anisotropy: float = 0.0
     anisotropy_rotation: float = 0.0
     anisotropy_texture: Texture | None = None
+    sheen_color: Vector = (0.0, 0.0, 0.0)
+    sheen_roughness: float = 0.0
+    sheen_color_texture: Texture | None = None
+    sheen_roughness_texture: Texture | None = None
     left_out: tuple[str, ...] = ()
 
     @property
@@ -147,13 +153,15 @@ class Material:
             slots += ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
         if self.anisotropy > 0:
             slots += ("anisotropy",)
+        if max(self.sheen_color) > 0:
+            slots += ("sheen_color", "sheen_roughness")
         found = {slot: getattr(self, f"{slot}_texture") for slot in slots}
         return {slot: texture for slot, texture in found.items() if texture is not None}
 
     @property
     def layers(self) -> frozenset[str]:
-        """What it has beyond the metallic-roughness base: "coat", "grain" (anisotropy)."""
-        there = {"coat": self.clearcoat > 0, "grain": self.anisotropy > 0}
+        """What it has beyond the metallic-roughness base: "coat", "grain" (anisotropy), "sheen"."""
+        there = {"coat": self.clearcoat > 0, "grain": self.anisotropy > 0, "sheen": max(self.sheen_color) > 0}
         return frozenset(name for name, is_there in there.items() if is_there)
 
     @property

@@ -23,6 +23,7 @@ class SurfacePoints:
         clearcoat_normal: (H, W, 3) unit normal of the coat, turned as `normal` is; None where it is that everywhere.
         anisotropy: (H, W) strength, 0…1; None where no material has a grain.
         anisotropy_direction: (H, W, 3) unit, along the grain, across `normal`; None likewise.
+        sheen_color, sheen_roughness: (H, W, 3) and (H, W), 0…1; None where no material has a sheen.
     """
 
     position: np.ndarray
@@ -41,6 +42,8 @@ class SurfacePoints:
     clearcoat_normal: np.ndarray | None = None
     anisotropy: np.ndarray | None = None
     anisotropy_direction: np.ndarray | None = None
+    sheen_color: np.ndarray | None = None
+    sheen_roughness: np.ndarray | None = None
 
     @property
     def hit(self) -> np.ndarray:

@@ -68,12 +68,14 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
         found |= {name: value for name, value in coat.items() if name in layers}
     if material.grain is not None:
         found |= {"anisotropy": material.grain.strength, "anisotropy_direction": material.grain.direction}
+    if material.sheen is not None:
+        found |= {"sheen_color": material.sheen.color, "sheen_roughness": material.sheen.roughness}
     dr.eval(list(found.values()))
     return {name: np.broadcast_to(value.numpy().T, (len(where), *_extent(name))) for name, value in found.items()}
 
 
 def _extent(name: str) -> tuple[int, ...]:
-    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction") else ()
+    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction", "sheen_color") else ()
 
 
 def _barycentric(corners: SurfacePoint, position):

@@ -20,6 +20,10 @@ uniform float clearcoat_normal_scale;
 uniform float anisotropy_factor;
 uniform vec2 grain_turn; // cosine and sine
 #endif
+#ifdef LAYER_SHEEN
+uniform vec3 sheen_color_factor;
+uniform float sheen_roughness_factor;
+#endif
 uniform int shape;
 in vec3 world_position;
 in vec3 vertex_normal;
@@ -83,6 +87,16 @@ void main() {
     vec3 anisotropy_direction = along_grain(vertex_tangent.xyz, vertex_tangent.w, vertex_normal, normal, grain);
 #else
     vec3 anisotropy_direction = across(normal);
+#endif
+#endif
+#ifdef LAYER_SHEEN
+    vec3 sheen_color = sheen_color_factor;
+    float sheen_roughness = sheen_roughness_factor;
+#ifdef TEXTURE_SHEEN_COLOR
+    sheen_color *= look_up_sheen_color().rgb;
+#endif
+#ifdef TEXTURE_SHEEN_ROUGHNESS
+    sheen_roughness *= look_up_sheen_roughness().a;
 #endif
 #endif
 #ifdef LAYER_COAT

@@ -18,6 +18,9 @@ uniform sampler2D gbuffer_clearcoat_normal;
 #ifdef GBUFFER_GRAIN
 uniform sampler2D gbuffer_grain;
 #endif
+#ifdef GBUFFER_SHEEN
+uniform sampler2D gbuffer_sheen;
+#endif
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -29,6 +32,10 @@ struct Surface {
     float roughness;
     float specular;
     float occlusion;
+#ifdef LAYER_SHEEN
+    vec3 sheen_color;
+    float sheen_roughness;
+#endif
 #ifdef LAYER_GRAIN
     float anisotropy;
     vec3 anisotropy_direction;
@@ -78,6 +85,11 @@ bool load_surface(ivec2 pixel, out Surface surface) {
     surface.anisotropy = grain.w;
     surface.anisotropy_direction = grain.xyz;
 #endif
+#ifdef GBUFFER_SHEEN
+    vec4 sheen = texelFetch(gbuffer_sheen, pixel, 0);
+    surface.sheen_color = sheen.rgb;
+    surface.sheen_roughness = sheen.a;
+#endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;
 #endif
@@ -98,6 +110,12 @@ bool load_surface(ivec2 pixel, out Surface surface) {
 #endif
 #if defined(LAYER_COAT) && defined(CONSTANT_CLEARCOAT_ROUGHNESS)
     surface.clearcoat_roughness = CONSTANT_CLEARCOAT_ROUGHNESS;
+#endif
+#if defined(LAYER_SHEEN) && defined(CONSTANT_SHEEN_COLOR)
+    surface.sheen_color = CONSTANT_SHEEN_COLOR;
+#endif
+#if defined(LAYER_SHEEN) && defined(CONSTANT_SHEEN_ROUGHNESS)
+    surface.sheen_roughness = CONSTANT_SHEEN_ROUGHNESS;
 #endif
     return seen;
 }

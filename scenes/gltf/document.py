@@ -272,6 +272,15 @@ class Anisotropy(Part):
     texture: TextureInfo | None = Field(None, alias="anisotropyTexture")
 
 
+class Sheen(Part):
+    """KHR_materials_sheen."""
+
+    color: tuple[Fraction, Fraction, Fraction] = Field((0.0, 0.0, 0.0), alias="sheenColorFactor")
+    color_texture: TextureInfo | None = Field(None, alias="sheenColorTexture")
+    roughness: Fraction = Field(0.0, alias="sheenRoughnessFactor")
+    roughness_texture: TextureInfo | None = Field(None, alias="sheenRoughnessTexture")
+
+
 class Cone(Part):
     inner: Annotated[float, Field(strict=True, ge=0, le=1.5707964)] = Field(0.0, alias="innerConeAngle")
     outer: Annotated[float, Field(strict=True, gt=0, le=1.5707964)] = Field(0.7853981633974483, alias="outerConeAngle")

@@ -1,5 +1,5 @@
 """Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
-_anisotropy)."""
+_anisotropy, _sheen)."""
 
 from typing import Any
 
@@ -84,6 +84,7 @@ class Materials:
             double_sided=part.double_sided,
             **self._coat(part, place),
             **self._grain(part, place),
+            **self._sheen(part, place),
             left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
 
@@ -116,6 +117,20 @@ class Materials:
             "anisotropy": grain.strength,
             "anisotropy_rotation": grain.rotation,
             "anisotropy_texture": self._textures.texture(grain.texture, False, here),
+        }
+
+    def _sheen(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of a sheen, where there is one."""
+        name = "KHR_materials_sheen"
+        sheen = self._source.extension(part, name, document.Sheen, place)
+        if sheen is None or max(sheen.color) == 0:
+            return {}
+        read, here = self._textures.texture, f"{place}.extensions.{name}"
+        return {
+            "sheen_color": sheen.color,
+            "sheen_roughness": sheen.roughness,
+            "sheen_color_texture": read(sheen.color_texture, True, f"{here}.sheenColorTexture"),
+            "sheen_roughness_texture": read(sheen.roughness_texture, False, f"{here}.sheenRoughnessTexture"),
         }
 
     def _specular(self, part: document.Material, place: str) -> float:

@@ -1,4 +1,5 @@
-"""What lies over a material, or shapes its gloss: coats of growing roughness and factor, brushed metal."""
+"""What lies over a material, or shapes its gloss: coats of growing roughness and factor, brushed metal,
+felt."""
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from lightmeter.scenes.model import Camera, DirectionalLight, Environment, Mater
 from lightmeter.scenes.tangents import with_tangents
 from lightmeter.scenes.toml.placing import unit
 
-SUMMARY = "The layers of materials: clear coats over roughness and over factor, and anisotropy."
+SUMMARY = "The layers of materials: clear coats over roughness and over factor, anisotropy, and sheen."
 COLUMNS = 6
 RADIUS = 0.42
 
@@ -18,6 +19,7 @@ def rows() -> list[list[Material]]:
     growing = [float(t) for t in np.linspace(0, 1, COLUMNS)]
     lacquer = {"base_color": (0.55, 0.05, 0.03), "roughness": 0.6}
     steel = {"base_color": (0.75, 0.72, 0.68), "metallic": 1.0, "roughness": 0.3}
+    felt = {"base_color": (0.05, 0.08, 0.2), "roughness": 0.9, "sheen_color": (0.7, 0.75, 0.9)}
     return [
         # A smoother coat would show a punctual light as a highlight far smaller than a pixel.
         [Material(f"coat roughness {0.1 + 0.6 * t:.2f}", **lacquer, clearcoat=1, clearcoat_roughness=0.1 + 0.6 * t)
@@ -25,6 +27,7 @@ def rows() -> list[list[Material]]:
         [Material(f"coat factor {0.1 + 0.9 * t:.2f}", **lacquer, clearcoat=0.1 + 0.9 * t, clearcoat_roughness=0.2)
          for t in growing],
         [Material(f"anisotropy {0.1 + 0.9 * t:.2f}", **steel, anisotropy=0.1 + 0.9 * t) for t in growing],
+        [Material(f"sheen roughness {0.25 + 0.75 * t:.2f}", **felt, sheen_roughness=0.25 + 0.75 * t) for t in growing],
     ]  # fmt: skip
 
 

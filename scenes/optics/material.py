@@ -14,12 +14,13 @@ own normal n_c for light (n_c·l > 0 and n_c·v > 0), while n·v > 0 decides for
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from . import anisotropy, clear_coat, microfacet
+from . import anisotropy, clear_coat, microfacet, sheen
 from . import arrays as xp
 from .anisotropy import Grain
 from .arrays import Array
 from .clear_coat import Coat
 from .frames import basis
+from .sheen import Sheen
 
 PI = 3.141592653589793
 DIELECTRIC_F0 = 0.04
@@ -35,6 +36,7 @@ class MaterialPoint:
     specular: Array
     coat: Coat | None = None
     grain: Grain | None = None
+    sheen: Sheen | None = None
 
     @property
     def diffuse(self) -> Array:
@@ -67,6 +69,8 @@ class MaterialPoint:
 def evaluate(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa: E741 (l: light, as in the field)
     """f(v, l)·(n·l) in 1/sr: what a unit of irradiance across l turns into, as radiance towards v."""
     value = _base(point, n, v, l)
+    if point.sheen is not None:
+        value = sheen.over(point.sheen, value, n, v, l)
     if point.coat is None:
         return value
     value = clear_coat.over(point.coat, value, v, l)
@@ -74,7 +78,7 @@ def evaluate(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # no
 
 
 def _base(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa: E741
-    """f·(n·l) of what lies below the coat."""
+    """f·(n·l) of what lies below coat and sheen."""
     n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
     lit = (n_dot_v > 0) & (n_dot_l > 0)
     n_dot_h, sin2_h, v_dot_h = microfacet.half_cosines(n, v, l)
@@ -99,7 +103,7 @@ def specular_probability(point: MaterialPoint, n_dot_v: Array) -> Array:
 
 
 def base_albedo(point: MaterialPoint, n_dot_v: Array) -> Array:
-    """A cheap estimate of the luminance of what lies below the coat."""
+    """A cheap estimate of the luminance that the base reflects."""
     fresnel, diffuse = _albedos(point, n_dot_v)
     return fresnel + diffuse
 
@@ -113,6 +117,10 @@ def _albedos(point: MaterialPoint, n_dot_v: Array) -> tuple[Array, Array]:
 def pdf(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa: E741
     """Density of `sample` over directions l, 1/sr; 0 below the horizon."""
     density = _base_pdf(point, n, v, l)
+    if point.sheen is not None:
+        n_dot_v, n_dot_l = xp.dot(n, v), xp.dot(n, l)
+        picked = sheen.probability(point.sheen, base_albedo(point, n_dot_v), n_dot_v)
+        density = xp.where(n_dot_v > 0, xp.mix(density, sheen.pdf(n_dot_l), picked), 0 * density)
     if point.coat is None:
         return density
     picked = clear_coat.probability(point.coat, base_albedo(point, xp.dot(n, v)), v)
@@ -145,11 +153,11 @@ def sample(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Arra
     `vector` builds a vector from x, y, z.
     """
     if point.coat is None:
-        return _sample_base(point, n, v, u, vector)
+        return _sample_below(point, n, v, u, vector)
     picked = clear_coat.probability(point.coat, base_albedo(point, xp.dot(n, v)), v)
     # What chooses between coat and base is stretched to choose again below.
     again = (u[0] - picked) / xp.maximum(1 - picked, 1e-7)
-    below = _sample_base(point, n, v, (again, u[1], u[2]), vector)
+    below = _sample_below(point, n, v, (again, u[1], u[2]), vector)
     above = clear_coat.sample(point.coat, v, u[1], u[2], vector)
     # What falls below its own layer's horizon is lost, although the other's may be lower: no density tells of it. −v is
     # below both.
@@ -158,8 +166,19 @@ def sample(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Arra
     return xp.where(u[0] < picked, above, below)
 
 
+def _sample_below(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Array], vector: Callable) -> Array:
+    """A direction from what lies below the coat."""
+    if point.sheen is None:
+        return _sample_base(point, n, v, u, vector)
+    n_dot_v = xp.dot(n, v)
+    picked = sheen.probability(point.sheen, base_albedo(point, n_dot_v), n_dot_v)
+    again = (u[0] - picked) / xp.maximum(1 - picked, 1e-7)
+    below = _sample_base(point, n, v, (again, u[1], u[2]), vector)
+    return xp.where(u[0] < picked, sheen.sample(n, u[1], u[2], vector), below)
+
+
 def _sample_base(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Array], vector: Callable) -> Array:
-    """A direction from the specular or the diffuse lobe below the coat."""
+    """A direction from the specular or the diffuse lobe."""
     if point.grain is None:
         s, t = basis(n, vector)
         along = across = point.alpha

@@ -32,7 +32,7 @@ from lightmeter.scenes.model import (
 from lightmeter.scenes.toml import entries
 from lightmeter.scenes.toml.placing import placement, unit
 
-COLOURED = ("base_color_texture", "emissive_texture")
+COLOURED = ("base_color_texture", "emissive_texture", "sheen_color_texture")
 """The textures whose colours are sRGB-encoded."""
 
 DEFAULT_MATERIAL = "default"

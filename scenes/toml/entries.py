@@ -115,6 +115,10 @@ class MaterialEntry(Strict):
     anisotropy: Fraction = Field(0.0, description="Strength (KHR_materials_anisotropy); 0: alike in all directions.")
     anisotropy_rotation: Number = Field(0.0, description="Of the grain, from the tangent to the bitangent, degrees.")
     anisotropy_texture: TextureKey | None = Field(None, description="Direction in red and green, factor in blue.")
+    sheen_color: Reflectance = Field((0.0, 0.0, 0.0), description="Sheen of cloth (KHR_materials_sheen); 0: none.")
+    sheen_roughness: Fraction = 0.0
+    sheen_color_texture: TextureKey | None = None
+    sheen_roughness_texture: TextureKey | None = Field(None, description="Factor in alpha.")
 
 
 class CameraEntry(Strict):

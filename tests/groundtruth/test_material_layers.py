@@ -13,7 +13,7 @@ from lightmeter.groundtruth.world import World
 from lightmeter.scenes import shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.model import Environment, Image, Material, PointLight, Scene, Shape, Texture
-from lightmeter.scenes.optics import anisotropy, clear_coat, lights
+from lightmeter.scenes.optics import anisotropy, clear_coat, lights, sheen
 from lightmeter.scenes.optics import material as optics
 
 from .noise import assert_same_mean
@@ -30,7 +30,9 @@ def texel(*values: int) -> Texture:
 
 
 BRUSHED = Material("brushed", (0.8, 0.6, 0.5), metallic=1.0, roughness=0.4, anisotropy=0.7, anisotropy_rotation=0.4)
-LAYERED = (COATED, BRUSHED)
+FELT = Material("felt", (0.1, 0.2, 0.4), roughness=0.8, sheen_color=(0.9, 0.6, 0.3), sheen_roughness=0.5)
+COATED_FELT = replace(COATED, name="coated felt", sheen_color=(0.5, 0.5, 0.9), sheen_roughness=0.7)
+LAYERED = (COATED, BRUSHED, FELT, COATED_FELT)
 BUMPY = Material(
     base_color=(0.8, 0.3, 0.1),
     roughness=0.5,
@@ -44,6 +46,10 @@ BUMPY = Material(
     anisotropy=0.8,
     anisotropy_rotation=0.2,
     anisotropy_texture=texel(255, 200, 153),
+    sheen_color=(0.5, 0.4, 0.2),
+    sheen_roughness=0.9,
+    sheen_color_texture=replace(texel(188, 255, 0), srgb=True),
+    sheen_roughness_texture=texel(1, 2, 3, 204),
 )
 
 
@@ -68,6 +74,10 @@ def layered(parameters: Material, count: int) -> optics.MaterialPoint:
         turn = parameters.anisotropy_rotation
         direction = np.tile([[np.cos(turn)], [0], [-np.sin(turn)]], count)
         point = replace(point, grain=anisotropy.Grain(np.full(count, parameters.anisotropy), direction))
+    if max(parameters.sheen_color) > 0:
+        color = np.repeat(np.array(parameters.sheen_color)[:, None], count, 1)
+        cloth = sheen.Sheen(color, np.full(count, parameters.sheen_roughness), sheen.albedo_table().ravel())
+        point = replace(point, sheen=cloth)
     return point
 
 
@@ -121,6 +131,8 @@ def test_textures_are_read_by_their_channels():
     np.testing.assert_allclose(points.clearcoat_normal.reshape(-1, 3), np.tile(expected, (16, 1)), atol=1e-6)
     assert np.abs(points.clearcoat_normal - points.normal).max() > 0.1
     np.testing.assert_allclose(points.anisotropy, 0.8 * 153 / 255, rtol=1e-6)
+    np.testing.assert_allclose(points.sheen_color[0, 0], [0.5 * 0.502886, 0.4, 0], rtol=1e-4)  # IEC 61966-2-1 of 188
+    np.testing.assert_allclose(points.sheen_roughness, 0.9 * 204 / 255, rtol=1e-6)
     turn = np.arctan2(2 * 200 / 255 - 1, 1) + 0.2
     flat = np.array([np.cos(turn), 0, -np.sin(turn)])
     normal = points.normal[0, 0].astype(float)
@@ -138,6 +150,7 @@ def test_a_smooth_coat_over_a_bumpy_base_keeps_the_surface_s_normal():
 def test_without_coats_there_are_no_parameters_and_without_normal_maps_no_second_normal():
     bare = surface_points(World.of(scene_of(Material())), (4, 4))
     assert bare.clearcoat is None and bare.clearcoat_roughness is None and bare.clearcoat_normal is None
+    assert bare.sheen_color is None and bare.sheen_roughness is None
     assert bare.anisotropy is None and bare.anisotropy_direction is None
     coated = surface_points(World.of(scene_of(COATED)), (4, 4))
     assert (coated.clearcoat == np.float32(0.8)).all() and coated.clearcoat_normal is None
@@ -152,8 +165,11 @@ def test_the_oracle_of_direct_light_is_the_definition():
     at = points.at(points.hit)
     at = at.each(lambda a: a.astype(float).T)
     coat = clear_coat.Coat(at.clearcoat, at.clearcoat_roughness, at.clearcoat_normal)
+    cloth = sheen.Sheen(
+        at.sheen_color, at.sheen_roughness, sheen.albedo_table().astype(np.float32).astype(float).ravel()
+    )
     grain = anisotropy.Grain(at.anisotropy, at.anisotropy_direction)
-    point = optics.MaterialPoint(at.base_color, at.metallic, at.roughness, at.specular, coat, grain)
+    point = optics.MaterialPoint(at.base_color, at.metallic, at.roughness, at.specular, coat, grain, cloth)
     towards, inverse_square = lights.from_position(np.array(lamp.position)[:, None], at.position)
     value = optics.evaluate(point, at.normal, at.view, towards)
     np.testing.assert_allclose(found, np.array(lamp.intensity)[:, None] * inverse_square * value, rtol=1e-5)

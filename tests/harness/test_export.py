@@ -84,6 +84,10 @@ def everything() -> Scene:
         anisotropy=1 / 3,
         anisotropy_rotation=0.7,
         anisotropy_texture=Texture(rgb, wrap_v="clamp"),
+        sheen_color=(0.2, 1 / 3, 0.0),
+        sheen_roughness=0.6,
+        sheen_color_texture=Texture(rgb, True),
+        sheen_roughness_texture=Texture(rgba),
     )
     bump = with_tangents(shapes.sphere(0.5, segments=8))
     bump = replace(bump, texcoords=(*bump.texcoords, bump.texcoords[0] * 2))

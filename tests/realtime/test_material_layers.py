@@ -8,7 +8,7 @@ from lightmeter.scenes import shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Image, Material, Shape, Texture
-from lightmeter.scenes.optics import anisotropy, clear_coat, material
+from lightmeter.scenes.optics import anisotropy, clear_coat, material, sheen
 
 from .direct_definition import exact_direct, inputs_of
 from .small_scenes import LAMP, WHITE, facing, moved, renderer, scene_of
@@ -16,6 +16,7 @@ from .test_costs import counted
 
 BUMPY = Texture(Image(np.array([[[150, 110, 230]]], np.uint8)))
 FACTORS = Texture(Image(np.array([[[200, 0, 0], [40, 0, 0]]], np.uint8)), min_filter="nearest", mag_filter="nearest")
+FELT = {"sheen_color": (0.8, 0.6, 0.9), "sheen_roughness": 0.55}
 PAINT = {"base_color": (0.5, 0.1, 0.05), "roughness": 0.6}
 
 
@@ -29,15 +30,18 @@ def card(**given) -> Shape:
 def exact(scene, points) -> np.ndarray:
     """`direct` of the first light at the points where something is seen, (3, N) float64."""
     at = points.at(points.hit).each(lambda a: a.astype(float).T)
-    coat = grain = None
+    coat = grain = cloth = None
     if at.clearcoat is not None:
         normal = at.normal if at.clearcoat_normal is None else at.clearcoat_normal
         coat = clear_coat.Coat(at.clearcoat, at.clearcoat_roughness, normal)
     if at.anisotropy is not None:
         grain = anisotropy.Grain(at.anisotropy, at.anisotropy_direction)
 
+    if at.sheen_color is not None:
+        cloth = sheen.Sheen(at.sheen_color, at.sheen_roughness, sheen.albedo_table().ravel())
+
     def layered(base_color, metallic, roughness, specular, n, v, to_light):
-        point = material.MaterialPoint(base_color, metallic, roughness, specular, coat, grain)
+        point = material.MaterialPoint(base_color, metallic, roughness, specular, coat, grain, cloth)
         return material.evaluate(point, n, v, to_light)
 
     light = scene.lights[0]
@@ -50,6 +54,8 @@ SCENES = {
     "normal map of the base": lambda: scene_of(card(clearcoat=1.0, normal_texture=BUMPY), lights=(LAMP,)),
     "grain": lambda: scene_of(card(anisotropy=0.9, anisotropy_rotation=0.5), lights=(LAMP,)),
     "normal map and grain": lambda: scene_of(card(anisotropy=0.9, normal_texture=BUMPY), lights=(LAMP,)),
+    "sheen": lambda: scene_of(card(**FELT), lights=(LAMP,)),
+    "sheen under a coat": lambda: scene_of(card(**FELT, clearcoat=0.5, clearcoat_roughness=0.4), lights=(LAMP,)),
     "factors": lambda: scene_of(card(clearcoat=0.9, clearcoat_texture=FACTORS), lights=(LAMP,)),
 }
 
@@ -110,6 +116,20 @@ def test_a_coat_in_constant_light_takes_and_mirrors_its_share(device):
     np.testing.assert_allclose(got[:, 1], 0.8 * (0.04 + 0.96 * (1 - cosine) ** 5), rtol=1e-4)
 
 
+def test_a_sheen_in_constant_light_returns_its_albedo(device):
+    """color·E + base·(1 − m·E) with E from the table, to rounding; at roughness 1 it is 0.16 at normal incidence."""
+    felt = Material("felt", (0.0, 0.0, 0.0), specular=0.0, sheen_color=(1.0, 0.5, 0.0), sheen_roughness=1.0)
+    scene = scene_of(Shape("ball", shapes.sphere(0.9, 64), felt), radiance=(1.0, 1.0, 1.0))
+    seen = renderer(device, scene, (24, 24), Choice(only=("constant_ambient",))).capture()
+    at = seen.points.at(seen.points.hit)
+    cosine = np.sum(at.normal * at.view, axis=-1)
+    cloth = sheen.Sheen(np.ones((3, 1)), np.ones(1), sheen.albedo_table().ravel())
+    got = seen.frame["environment"][seen.points.hit]
+    expected = sheen.albedo(cloth, cosine)[:, None] * felt.sheen_color
+    np.testing.assert_allclose(got, expected, atol=1e-3)
+    assert got[cosine > 0.99, 0] == pytest.approx(0.165, abs=0.005)
+
+
 def test_a_layer_costs_what_it_needs_and_nothing_where_there_is_none():
     """A coat that is the same everywhere: nothing but arithmetic; factors that differ: one attachment; a normal map
     of its own: another, and the map itself. A grain: one attachment.
@@ -127,5 +147,8 @@ def test_a_layer_costs_what_it_needs_and_nothing_where_there_is_none():
     alone = Choice(without=("shadow_map", "constant_ambient"))
     grain = counted(scene_of(card(anisotropy=0.5), lights=(LAMP,)))
     assert grain[1]["textures"] == bare[1]["textures"] + 1 and grain[1]["shaders"] == bare[1]["shaders"]
+    # A sheen that is the same everywhere: its table of albedos.
+    cloth = counted(scene_of(card(**FELT), lights=(LAMP,)))
+    assert cloth[1]["textures"] == bare[1]["textures"] + 1 and cloth[1]["shaders"] == bare[1]["shaders"]
     mapped = counted(scene_of(card(clearcoat=0.5, clearcoat_normal_texture=BUMPY), lights=(LAMP,)), alone)
     assert mapped[1]["textures"] == bare[1]["textures"] + 2

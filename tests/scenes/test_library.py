@@ -20,6 +20,7 @@ NAMES = (
     "cornell-box",
     "grid-sun",
     "layers",
+    "material-layers",
     "metal-rough-grid",
     "penumbra",
     "plane",

@@ -3,6 +3,9 @@
 #ifdef LAYER_COAT
 #include "clear_coat.glsl"
 #endif
+#ifdef LAYER_SHEEN
+#include "sheen.glsl"
+#endif
 uniform vec3 environment_radiance;
 uniform vec3 indirect_radiance;
 
@@ -25,6 +28,10 @@ vec3 ambient_albedo(vec3 base_color, float metallic, float roughness, float spec
 vec3 surface_albedo(Surface surface) {
     vec3 value = ambient_albedo(surface.base_color, surface.metallic, surface.roughness, surface.specular,
                                 dot(surface.normal, surface.view));
+#ifdef LAYER_SHEEN
+    float returned = sheen_albedo(dot(surface.normal, surface.view), surface.sheen_roughness);
+    value = surface.sheen_color * returned + value * sheen_scaling(surface.sheen_color, returned, returned);
+#endif
 #ifdef LAYER_COAT
     // The coat mirrors what it takes, and what it mirrors is the same from everywhere: as a prefiltered map is scaled
     // by its Fresnel term alone (Guy & Agopian 2018, Physically Based Rendering in Filament, on image based lights).

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.layers import COAT, GRAIN
+from lightmeter.scenes.layers import COAT, GRAIN, SHEEN
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.optics.conductors import METALS
 
@@ -117,7 +117,7 @@ EFFECT = Effect(
             sweep=tuple(COMPENSATIONS),
         ),
     ),
-    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT, *GRAIN),
+    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT, *GRAIN, *SHEEN),
     lights=punctual.punctual,
     uniforms=uniforms,
     defines=defines,

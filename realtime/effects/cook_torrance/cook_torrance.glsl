@@ -10,6 +10,9 @@
 #if defined(LAYER_GRAIN) && defined(TAKES_GRAIN)
 #include "anisotropy.glsl"
 #endif
+#ifdef LAYER_SHEEN
+#include "sheen.glsl"
+#endif
 
 // f(v, l)·(n·l), 1/sr, of a gloss D·V over the base; both cosines above 0.
 vec3 weighed(float gloss, float v_dot_h, vec3 base_color, float metallic, float roughness, float specular,
@@ -55,6 +58,9 @@ vec3 direct(Surface surface) {
 #else
     vec3 value = reflected(surface.base_color, surface.metallic, surface.roughness, surface.specular, surface.normal,
                            surface.view, to_light);
+#endif
+#ifdef LAYER_SHEEN
+    value = with_sheen(value, surface.sheen_color, surface.sheen_roughness, surface.normal, surface.view, to_light);
 #endif
 #ifdef LAYER_COAT
     value = coated(value, surface.clearcoat, surface.clearcoat_roughness, surface.clearcoat_normal, surface.view,
