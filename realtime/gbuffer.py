@@ -94,7 +94,7 @@ class Draw:
 
 
 class GBuffer:
-    """Renders the surface's parameters.
+    """Renders the surface's parameters; where they are more than a draw can write, in groups, one after another.
 
     Args:
         channels: those that are read; the rest is left out, and what belongs to layers that no material has.
@@ -130,13 +130,15 @@ class GBuffer:
         self._attachments = attachments
         device.counts["textures"] += 1
         self.depth = device.gl.depth_renderbuffer(size)
-        self._framebuffer = device.framebuffer(self.textures.values(), self.depth)
+        most = device.gl.info["GL_MAX_DRAW_BUFFERS"]
+        self._groups = [attachments[first : first + most] for first in range(0, len(attachments), most)]
+        self._framebuffers = [device.framebuffer([self.textures[a.name] for a in g], self.depth) for g in self._groups]
         # Where nothing emits, no shape writes radiance: it is cleared by itself.
         self._cleared = None if emits else device.framebuffer([radiance])
         surrounded = scene.environment is not None and scene.environment.shines
         self._background = Background(device, scene, size, radiance, self.depth) if surrounded else None
         self._programs: dict[tuple, Any] = {}
-        self._draws = [self._prepare(batch) for batch in geometry.batches]
+        self._draws = [[self._prepare(batch, group) for batch in geometry.batches] for group in self._groups]
 
     def defines(self) -> dict[str, object]:
         """What shaders that read the G-buffer are told: which textures there are, and the constants."""
@@ -152,19 +154,19 @@ class GBuffer:
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
         gl, camera = self._device.gl, self._scene.camera
-        self._framebuffer.use()
-        self._framebuffer.clear()
         if self._cleared is not None:
             self._cleared.clear()
-            self._framebuffer.use()
         gl.enable_only(gl.DEPTH_TEST)
         matrix = projection_matrix(camera, self._size, offset) @ view_matrix(camera)
         for program in self._programs.values():
             set_uniforms(program, {"view_projection": matrix})
-        for draw in self._draws:
-            draw.uniforms.write()
-            bind(draw.program, draw.textures)
-            self._device.draw(draw.vertices, draw.count)
+        for framebuffer, draws in zip(self._framebuffers, self._draws, strict=True):
+            framebuffer.use()
+            framebuffer.clear()
+            for draw in draws:
+                draw.uniforms.write()
+                bind(draw.program, draw.textures)
+                self._device.draw(draw.vertices, draw.count)
         if self._background is not None:
             self._background.draw(offset)
 
@@ -191,8 +193,8 @@ class GBuffer:
         attachment, part = PARTS[name]
         return self._device.read(self.textures[attachment])[..., part].copy()
 
-    def _prepare(self, batch: Batch) -> "Draw":
-        program = self._program(batch)
+    def _prepare(self, batch: Batch, group: list[Attachment]) -> "Draw":
+        program = self._program(batch, group)
         values = material_uniforms(batch.material) | {"shape": batch.shape}
         textures = {f"{slot}_texture": texture for slot, texture in batch.material.textures.items()}
         return Draw(
@@ -203,10 +205,10 @@ class GBuffer:
             {name: self._geometry.texture(texture) for name, texture in textures.items() if name in program},
         )
 
-    def _program(self, batch: Batch):
+    def _program(self, batch: Batch, group: list[Attachment]):
         material = batch.material
         slots = usable_slots(batch)
-        key = (batch.has, slots, material.alpha_mode, material.double_sided)
+        key = (batch.has, slots, material.alpha_mode, material.double_sided, group[0].name)
         if key not in self._programs:
             defines: dict[str, object] = {f"HAS_{name.upper()}": True for name in batch.has}
             defines |= {f"TEXTURE_{slot[0].upper()}": True for slot in slots}
@@ -215,18 +217,18 @@ class GBuffer:
             defines |= self._layers()
             fragment = source("gbuffer.frag", defines).text
             fragment = fragment.replace("TEXTURE_DECLARATIONS", "\n".join(map(texture_declaration, slots)))
-            fragment = fragment.replace("ATTACHMENTS", self._declarations()).replace("    WRITES", self._writes())
+            fragment = fragment.replace("ATTACHMENTS", _declarations(group)).replace("    WRITES", _writes(group))
             program = self._device.program(Source(fragment), source("gbuffer.vert", defines))
             self._programs[key] = program
         return self._programs[key]
 
-    def _declarations(self) -> str:
-        return "\n".join(
-            f"layout(location = {i}) out vec{a.components} out_{a.name};" for i, a in enumerate(self._attachments)
-        )
 
-    def _writes(self) -> str:
-        return "\n".join(f"    out_{a.name} = {a.expression};" for a in self._attachments)
+def _declarations(group: list[Attachment]) -> str:
+    return "\n".join(f"layout(location = {i}) out vec{a.components} out_{a.name};" for i, a in enumerate(group))
+
+
+def _writes(group: list[Attachment]) -> str:
+    return "\n".join(f"    out_{a.name} = {a.expression};" for a in group)
 
 
 def _sheen_table() -> np.ndarray:

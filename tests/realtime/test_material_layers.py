@@ -1,5 +1,7 @@
 """Layers of materials on the real-time side: the effects that have them against the definition, and what they cost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,30 @@ def test_a_sheen_in_constant_light_returns_its_albedo(device):
     expected = sheen.albedo(cloth, cosine)[:, None] * felt.sheen_color
     np.testing.assert_allclose(got, expected, atol=1e-3)
     assert got[cosine > 0.99, 0] == pytest.approx(0.165, abs=0.005)
+
+
+def test_more_attachments_than_a_draw_can_write_are_drawn_in_groups(device):
+    """Every layer with maps beside emission and occlusion: ten attachments, where OpenGL promises eight."""
+    every = {
+        "clearcoat": 0.9,
+        "clearcoat_texture": FACTORS,
+        "clearcoat_normal_texture": BUMPY,
+        "anisotropy": 0.5,
+        "sheen_color": (0.8, 0.6, 0.9),
+        "sheen_roughness": 0.5,
+        "sheen_color_texture": replace(FACTORS, srgb=True),
+        "occlusion_texture": FACTORS,
+        "metallic_roughness_texture": FACTORS,
+    }
+    glow = Shape("glow", shapes.rectangle(0.5, 0.5), Material("glow", emissive=(2.0, 2.0, 2.0)), moved(x=0.6, z=0.5))
+    scene = scene_of(card(**every), glow, lights=(LAMP,))
+    maker = renderer(device, scene, (40, 40), Choice(only=("cook_torrance",)))
+    for _ in range(2):
+        seen = maker.capture()
+        value = exact(scene, seen.points)
+        np.testing.assert_allclose(seen.direct[0][seen.points.hit].T, value, rtol=1e-3, atol=1e-4 * value.mean())
+        assert seen.points.emission.max() == 2 and set(np.unique(seen.points.shape)) == {0, 1}
+        assert seen.points.occlusion[seen.points.hit].min() < 0.9
 
 
 def test_a_layer_costs_what_it_needs_and_nothing_where_there_is_none():
