@@ -84,12 +84,19 @@ def over(sheen: Sheen, base: Array, n: Array, v: Array, l: Array) -> Array:  # n
 
 def albedo(sheen: Sheen, cosine: Array) -> Array:
     """E by the table, interpolated linearly."""
-    last = TABLE_SIDE - 1
-    x, y = xp.sqrt(xp.clip(cosine, 0.0, 1.0)) * last, xp.clip(sheen.roughness, 0.0, 1.0) * last
-    left, top = xp.minimum(xp.floor(x), last - 1), xp.minimum(xp.floor(y), last - 1)
-    upper, lower = TABLE_SIDE * top + left, TABLE_SIDE * (top + 1) + left
-    rows = (xp.mix(xp.take(sheen.table, row), xp.take(sheen.table, row + 1), x - left) for row in (upper, lower))
-    return xp.mix(*rows, y - top)
+    x, y = _place(xp.sqrt(xp.maximum(cosine, 0.0))), _place(sheen.roughness)
+    left, top = (xp.minimum(xp.floor(place), TABLE_SIDE - 2) for place in (x, y))
+    first = TABLE_SIDE * top + left
+
+    def row(start: Array) -> Array:
+        return xp.mix(xp.take(sheen.table, start), xp.take(sheen.table, start + 1), x - left)
+
+    return xp.mix(row(first), row(first + TABLE_SIDE), y - top)
+
+
+def _place(share: Array) -> Array:
+    """Where in the table 0…1 lies; what is no number (a back has no normal, hence no cosine) leads to its start."""
+    return xp.where(share > 0, xp.minimum(share, 1.0), 0.0) * (TABLE_SIDE - 1)
 
 
 def probability(sheen: Sheen, base_albedo: Array, n_dot_v: Array) -> Array:

@@ -175,6 +175,14 @@ def test_the_oracle_of_direct_light_is_the_definition():
     np.testing.assert_allclose(found, np.array(lamp.intensity)[:, None] * inverse_square * value, rtol=1e-5)
 
 
+def test_a_point_without_a_normal_is_black():
+    """The back of a single-sided surface: a cosine that is no number looks nothing up."""
+    lamp = PointLight("lamp", (0.4, 1.5, 0.2), (3.0, 2.0, 1.0))
+    world = World.of(scene_of(BUMPY, lights=(lamp,)))
+    points = surface_points(world, (8, 8))
+    assert (direct.evaluate(world, replace(points, normal=0 * points.normal), 0) == 0).all()
+
+
 def test_the_composition_of_all_oracles_is_the_reference():
     """A coated ball on a coated floor with normal maps, under a lamp, a point light and an environment."""
     mesh, bumpy, _ = dressed(shapes.plane(4.0, 4.0), BUMPY)
