@@ -203,8 +203,9 @@ def _check(shape: Shape) -> None:
                 f"the mesh has {sets} sets"
             )
     if shape.material.uses_tangents and (shape.mesh.tangents is None or shape.mesh.normals is None):
+        what = "a normal texture" if shape.material.has_normal_map else "anisotropy"
         raise ValueError(
-            f"shape {shape.name!r}: its normal texture or anisotropy needs a mesh with normals and tangents "
+            f"shape {shape.name!r}: {what} needs a mesh with normals and tangents "
             "(lightmeter.scenes.dressing.dressed adds them)"
         )
 
