@@ -15,13 +15,26 @@ from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Shape
 from lightmeter.scenes.optics import material as optics
 
-SCATTERING_SLOTS = frozenset({"base_color", "metallic_roughness", "normal", "color"})
+SCATTERING_SLOTS = frozenset(
+    {
+        "base_color",
+        "metallic_roughness",
+        "normal",
+        "color",
+        "clearcoat",
+        "clearcoat_roughness",
+        "clearcoat_normal",
+        "anisotropy",
+        "sheen_color",
+        "sheen_roughness",
+    }
+)
 MASK = "mask"
 
 
 def kind(shape: Shape) -> frozenset[str]:
-    """What tells one BSDF instance from another: the slots a material uses, and "mask"."""
-    found = set(shape.material.textures) & SCATTERING_SLOTS
+    """What tells one BSDF instance from another: the slots a material uses, its layers, and "mask"."""
+    found = set(shape.material.textures) & SCATTERING_SLOTS | shape.material.layers
     if shape.mesh.colors is not None:
         found.add("color")
     if shape.material.alpha_mode == "mask":
@@ -63,6 +76,10 @@ class SceneBSDF(mi.BSDF):
         normal = dr.select(behind & double_sided, -normal, normal)
         return normal, si.to_world(si.wi), ~behind | double_sided
 
+    def _material(self, si, point: surface.SurfacePoint) -> optics.MaterialPoint:
+        """The parameters, with the layers' normals on the viewer's side."""
+        return point.material.turned((mi.Frame3f.cos_theta(si.wi) < 0) & point.double_sided)
+
     def _eval_pdf(self, si, point, material, frame, wo, active):
         normal, view, scatters = frame
         light = si.to_world(wo)
@@ -96,7 +113,7 @@ class SceneBSDF(mi.BSDF):
     def sample(self, ctx, si, sample1, sample2, active=True):
         """A direction with density `pdf` and its weight f·cos/pdf; through the holes of a mask, straight on."""
         point = self._point(si, active)
-        return self._sample(si, point, point.material, self._frame(si, point), sample1, sample2, active)
+        return self._sample(si, point, self._material(si, point), self._frame(si, point), sample1, sample2, active)
 
     def eval(self, ctx, si, wo, active=True):
         """f·cos, 1/sr."""
@@ -109,12 +126,12 @@ class SceneBSDF(mi.BSDF):
     def eval_pdf(self, ctx, si, wo, active=True):
         """`eval` and `pdf`."""
         point = self._point(si, active)
-        return self._eval_pdf(si, point, point.material, self._frame(si, point), wo, active)
+        return self._eval_pdf(si, point, self._material(si, point), self._frame(si, point), wo, active)
 
     def eval_pdf_sample(self, ctx, si, wo, sample1, sample2, active=True):
         """`eval_pdf` and `sample`, with one look at the textures."""
         point = self._point(si, active)
-        material, frame = point.material, self._frame(si, point)
+        material, frame = self._material(si, point), self._frame(si, point)
         value, density = self._eval_pdf(si, point, material, frame, wo, active)
         bs, weight = self._sample(si, point, material, frame, sample1, sample2, active)
         return value, density, bs, weight

@@ -66,14 +66,8 @@ def _from_punctual(world: World, light: PunctualLight, vertices: Vertices, shado
     vertex = vertices.at(dr.arange(mi.UInt32, vertices.count))
     position = mi.Vector3d(vertex.position)
     towards, irradiance, end = incident(light, position)
-    point = optics.MaterialPoint(
-        mi.Color3d(vertex.material.base_color),
-        mi.Float64(vertex.material.metallic),
-        mi.Float64(vertex.material.roughness),
-        mi.Float64(vertex.material.specular),
-    )
     normal, view = dr.normalize(mi.Vector3d(vertex.normal)), dr.normalize(mi.Vector3d(vertex.view))
-    unshadowed = mi.Color3f(optics.evaluate(point, normal, view, towards) * irradiance)
+    unshadowed = mi.Color3f(optics.evaluate(vertex.material_in_double, normal, view, towards) * irradiance)
     if not shadowed:
         dr.eval(unshadowed)
         return unshadowed.numpy()

@@ -4,16 +4,20 @@ A point is given by the shape's index, the triangle's and the barycentric coordi
 corner. The same functions serve the reference's BSDF and the oracles.
 """
 
+from collections.abc import Callable
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from lightmeter.groundtruth.tables import DOUBLE_SIDED, MASKED, SLOTS, Tables
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.optics import frames
+from lightmeter.scenes.optics.anisotropy import Grain
+from lightmeter.scenes.optics.clear_coat import Coat
 from lightmeter.scenes.optics.material import MaterialPoint
+from lightmeter.scenes.optics.sheen import Sheen
 from lightmeter.scenes.optics.texture import TexelGrid
 
-ALL_SLOTS = frozenset(SLOTS) | {"color"}
+ALL_SLOTS = frozenset(SLOTS) | {"color", "coat", "grain", "sheen"}
 
 
 @dataclass
@@ -23,7 +27,8 @@ class SurfacePoint:
     Attributes:
         shape, triangle: UInt32 indices.
         b1, b2: barycentric coordinates.
-        slots: the texture slots (and "color", the vertex colours) to look at; others count as absent.
+        slots: the texture slots (and "color", the vertex colours, and the material's layers, such as "coat") to look
+            at; others count as absent.
         active: which lanes may read.
     """
 
@@ -73,14 +78,25 @@ class SurfacePoint:
     @property
     def normal(self):
         """Vector3f: the unit shading normal on the face's front, normal map included."""
+        return self._mapped("normal", lambda: self._floats(1)[3])
+
+    @property
+    def coat_normal(self):
+        """Vector3f: the unit normal of the coat on the face's front, with the coat's own normal map."""
+        return self._mapped("clearcoat_normal", lambda: self._floats(3)[3])
+
+    def _mapped(self, slot: str, scale: Callable):
+        """The interpolated normal, moved by the normal map in a slot where there is one."""
         n = self._corners(mi.Vector3f, self.tables.normals, 3 * self.first_triangle, mi.UInt32(1))
-        if "normal" not in self.slots:
+        if slot not in self.slots:
             return dr.normalize(n)
+        mapped = frames.decode_normal(self.texel(slot), scale(), mi.Vector3f)
+        return frames.tangent_to_world(*self._tangent_and_sign(), n, mapped)
+
+    def _tangent_and_sign(self):
+        """The interpolated tangent and the bitangent's sign."""
         tangent = self._corners(mi.Vector4f, self.tables.tangents, self._tangent, self._tangent_stride)
-        scale = self._floats(1)[3]
-        mapped = frames.decode_normal(self.texel("normal"), scale, mi.Vector3f)
-        direction = mi.Vector3f(tangent[0], tangent[1], tangent[2])
-        return frames.tangent_to_world(direction, dr.select(tangent[3] < 0, -1, mi.Float(1)), n, mapped)
+        return mi.Vector3f(tangent[0], tangent[1], tangent[2]), dr.select(tangent[3] < 0, -1, mi.Float(1))
 
     @property
     def base_color_alpha(self):
@@ -101,14 +117,51 @@ class SurfacePoint:
 
     @property
     def material(self) -> MaterialPoint:
-        """The scattering parameters."""
+        """The scattering parameters; the coat's normal on the face's front."""
         color = self.base_color_alpha
         factors = self._floats(1)
         metallic, roughness = factors[0], factors[1]
         if "metallic_roughness" in self.slots:
             texel = self.texel("metallic_roughness")
             metallic, roughness = metallic * texel[2], roughness * texel[1]
-        return MaterialPoint(mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2])
+        coat = self._coat if "coat" in self.slots else None
+        grain = self._grain if "grain" in self.slots else None
+        sheen = self._sheen if "sheen" in self.slots else None
+        return MaterialPoint(
+            mi.Color3f(color[0], color[1], color[2]), metallic, roughness, factors[2], coat, grain, sheen
+        )
+
+    @property
+    def _coat(self) -> Coat:
+        _, factor, roughness, _ = self._floats(3)
+        if "clearcoat" in self.slots:
+            factor = factor * self.texel("clearcoat")[0]
+        if "clearcoat_roughness" in self.slots:
+            roughness = roughness * self.texel("clearcoat_roughness")[1]
+        return Coat(factor, roughness, self.coat_normal)
+
+    @property
+    def _grain(self) -> Grain:
+        strength, x, y, _ = dr.gather(mi.Vector4f, self.tables.grain_floats, self.shape, self.active)
+        if "anisotropy" in self.slots:
+            texel = self.texel("anisotropy")
+            strength = strength * texel[2]
+            u, v = 2 * texel[0] - 1, 2 * texel[1] - 1
+            x, y = x * u - y * v, y * u + x * v
+        n = self._corners(mi.Vector3f, self.tables.normals, 3 * self.first_triangle, mi.UInt32(1))
+        direction = frames.along_grain(*self._tangent_and_sign(), n, self.normal, x, y, mi.Vector3f)
+        return Grain(strength, direction)
+
+    @property
+    def _sheen(self) -> Sheen:
+        *color, roughness = dr.gather(mi.Vector4f, self.tables.sheen_floats, self.shape, self.active)
+        color = mi.Color3f(*color)
+        if "sheen_color" in self.slots:
+            texel = self.texel("sheen_color")
+            color = color * mi.Color3f(texel[0], texel[1], texel[2])
+        if "sheen_roughness" in self.slots:
+            roughness = roughness * self.texel("sheen_roughness")[3]
+        return Sheen(color, roughness, self.tables.sheen_albedo)
 
     @property
     def emission(self):

@@ -11,13 +11,27 @@ import numpy as np
 
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Mesh, Scene, Shape, Texture
+from lightmeter.scenes.optics import sheen
 from lightmeter.scenes.optics.texture import TexelGrid, linear_texels
 
-SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
+SLOTS = (
+    "base_color",
+    "metallic_roughness",
+    "normal",
+    "occlusion",
+    "emissive",
+    "clearcoat",
+    "clearcoat_roughness",
+    "clearcoat_normal",
+    "anisotropy",
+    "sheen_color",
+    "sheen_roughness",
+)
 
 _NEUTRAL = {slot: np.ones((1, 1, 4), np.float32) for slot in SLOTS} | {
-    "normal": np.array([[[0.5, 0.5, 1, 1]]], np.float32)
+    slot: np.array([[[0.5, 0.5, 1, 1]]], np.float32) for slot in ("normal", "clearcoat_normal")
 }
+_NEUTRAL["anisotropy"] = np.array([[[1, 0.5, 1, 1]]], np.float32)
 
 DOUBLE_SIDED, MASKED = 1, 2
 
@@ -29,7 +43,10 @@ class Tables:
     Attributes:
         shape_ints: 8 per shape: first triangle, flags, first tangent, its stride, first colour, its stride, 0, 0.
         shape_floats: 16 per shape: base colour and alpha; metallic, roughness, specular, normal scale; emissive and
-            alpha cut-off; occlusion strength, 0, 0, 0.
+            alpha cut-off; occlusion strength, clear coat, its roughness and normal scale.
+        grain_floats: 4 per shape: strength of the anisotropy, the grain's direction along tangent and bitangent, 0.
+        sheen_floats: 4 per shape: colour and roughness of the sheen.
+        sheen_albedo: the sheen's table of albedos, flat; one element where no material has a sheen.
         slot_ints: 8 per shape × slot: first texel, first texture coordinate, its stride, width, height, wrap u,
             wrap v, nearest.
         slot_floats: 8 per shape × slot: the texture's 2 × 3 matrix, 0, 0.
@@ -44,6 +61,9 @@ class Tables:
 
     shape_ints: object
     shape_floats: object
+    grain_floats: object
+    sheen_floats: object
+    sheen_albedo: object
     slot_ints: object
     slot_floats: object
     positions: object
@@ -98,6 +118,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     no_color = colors.add("none", lambda: [1, 1, 1, 1])
     no_texcoord = texcoords.add("none", lambda: [0, 0])
     shape_ints, shape_floats, slot_ints, slot_floats = [], [], [], []
+    grain_floats, sheen_floats = [], []
     first_triangle = 0
     keep = []  # so that no id() is given out twice while the tables are built
     for index, shape in enumerate(scene.shapes):
@@ -108,7 +129,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         corners.add(index, lambda mesh=mesh, i=flat_index: mesh.positions[i])
         normals.add(index, lambda mesh=mesh, i=flat_index: _corner_normals(mesh, i))
         tangent, tangent_stride = no_tangent, 0
-        if mesh.tangents is not None and material.normal_texture is not None:
+        if mesh.tangents is not None and material.uses_tangents:
             tangent = tangents.add(index, lambda mesh=mesh, i=flat_index: mesh.tangents[i])
             tangent_stride = 1
         color, color_stride = no_color, 0
@@ -117,6 +138,9 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         flags = DOUBLE_SIDED * material.double_sided + MASKED * (material.alpha_mode == "mask")
         shape_ints.append([first_triangle, flags, tangent, tangent_stride, color, color_stride, 0, 0])
         shape_floats.append(_parameters(shape))
+        turn = material.anisotropy_rotation
+        grain_floats.append([material.anisotropy, np.cos(turn), np.sin(turn), 0.0])
+        sheen_floats.append([*material.sheen_color, material.sheen_roughness])
         first_triangle += len(mesh.triangles)
         for slot in SLOTS:
             texture = material.textures.get(slot)
@@ -136,6 +160,7 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
         corners.add("none", lambda: np.zeros((3, 3)))
         normals.add("none", lambda: np.zeros((3, 3)))
         shape_ints, shape_floats = [[0] * 8], [[0.0] * 16]
+        grain_floats, sheen_floats = [[0.0] * 4], [[0.0] * 4]
         slot_ints, slot_floats = [[0] * 8] * len(SLOTS), [[0.0] * 8] * len(SLOTS)
         texels.add("none", lambda: [1, 1, 1, 1])
     numbers = {number: index for index, number in enumerate(registry_ids) if number is not None}
@@ -144,6 +169,9 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     tables = Tables(
         mi.UInt32(np.array(shape_ints, np.uint32).ravel()),
         mi.Float(np.array(shape_floats, np.float32).ravel()),
+        mi.Float(np.array(grain_floats, np.float32).ravel()),
+        mi.Float(np.array(sheen_floats, np.float32).ravel()),
+        mi.Float(_sheen_albedo(scene)),
         mi.UInt32(np.array(slot_ints, np.uint32).ravel()),
         mi.Float(np.array(slot_floats, np.float32).ravel()),
         corners.array(),
@@ -159,6 +187,12 @@ def build(scene: Scene, registry_ids: list[int | None]) -> Tables:
     return tables
 
 
+def _sheen_albedo(scene: Scene) -> np.ndarray:
+    if not any("sheen" in shape.material.layers for shape in scene.shapes):
+        return np.zeros(1, np.float32)
+    return sheen.albedo_table().astype(np.float32).ravel()
+
+
 def _check(shape: Shape) -> None:
     """The scene loaders see to this (`scenes/dressing.py`); a scene made by hand may lack it."""
     sets = len(shape.mesh.texcoords)
@@ -168,9 +202,10 @@ def _check(shape: Shape) -> None:
                 f"shape {shape.name!r}: its {slot} texture needs texture coordinates {texture.texcoord}, "
                 f"the mesh has {sets} sets"
             )
-    if shape.material.normal_texture is not None and (shape.mesh.tangents is None or shape.mesh.normals is None):
+    if shape.material.uses_tangents and (shape.mesh.tangents is None or shape.mesh.normals is None):
+        what = "a normal texture" if shape.material.has_normal_map else "anisotropy"
         raise ValueError(
-            f"shape {shape.name!r}: a normal texture needs a mesh with normals and tangents "
+            f"shape {shape.name!r}: {what} needs a mesh with normals and tangents "
             "(lightmeter.scenes.dressing.dressed adds them)"
         )
 
@@ -195,9 +230,9 @@ def _parameters(shape: Shape) -> list[float]:
         *m.emissive,
         m.alpha_cutoff,
         m.occlusion_strength,
-        0.0,
-        0.0,
-        0.0,
+        m.clearcoat,
+        m.clearcoat_roughness,
+        m.clearcoat_normal_scale,
     ]
 
 

@@ -12,6 +12,9 @@ from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.wavefront import Lanes, average
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.optics import material as optics
+from lightmeter.scenes.optics.anisotropy import Grain
+from lightmeter.scenes.optics.clear_coat import Coat
+from lightmeter.scenes.optics.sheen import Sheen
 from lightmeter.scenes.points import SurfacePoints
 
 
@@ -39,6 +42,19 @@ class Vertices:
         self.base_color = mi.Float(self._rows(points.base_color))
         scalars = np.stack([points.metallic, points.roughness, points.specular, points.occlusion], axis=-1)
         self.scalars = mi.Float(self._rows(scalars))
+        self.coat = self.coat_normal = None
+        if points.clearcoat is not None and points.clearcoat_roughness is not None:
+            self.coat = mi.Float(self._rows(np.stack([points.clearcoat, points.clearcoat_roughness], axis=-1)))
+        if points.clearcoat_normal is not None:
+            self.coat_normal = mi.Float(self._rows(points.clearcoat_normal))
+        self.grain = None
+        if points.anisotropy is not None and points.anisotropy_direction is not None:
+            rows = np.concatenate([points.anisotropy_direction, points.anisotropy[..., None]], axis=-1)
+            self.grain = mi.Float(self._rows(rows))
+        self.sheen = None
+        if points.sheen_color is not None and points.sheen_roughness is not None:
+            rows = np.concatenate([points.sheen_color, points.sheen_roughness[..., None]], axis=-1)
+            self.sheen = mi.Float(self._rows(rows))
         flat = surface.SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
         face = mi.Float64(1) * mi.Vector3d(flat.face_cross)
         self.face = mi.Float(dr.ravel(mi.Vector3f(dr.normalize(face))))
@@ -116,7 +132,21 @@ class Vertex:
         self.face = vector(mi.Vector3f, vertices.face)
         scalars = vector(mi.Vector4f, vertices.scalars)
         color = vector(mi.Color3f, vertices.base_color)
-        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2])
+        coat = None
+        if vertices.coat is not None:
+            own = vertices.coat_normal
+            normal = self.normal if own is None else vector(mi.Vector3f, own)
+            factors = vector(mi.Vector2f, vertices.coat)
+            coat = Coat(factors[0], factors[1], normal)
+        grain = None
+        if vertices.grain is not None:
+            row = vector(mi.Vector4f, vertices.grain)
+            grain = Grain(row[3], mi.Vector3f(row[0], row[1], row[2]))
+        sheen = None
+        if vertices.sheen is not None:
+            row = vector(mi.Vector4f, vertices.sheen)
+            sheen = Sheen(mi.Color3f(row[0], row[1], row[2]), row[3], vertices.world.tables.sheen_albedo)
+        self.material = optics.MaterialPoint(color, scalars[0], scalars[1], scalars[2], coat, grain, sheen)
         self.interaction = dr.zeros(mi.SurfaceInteraction3f, dr.width(place))
         self.position = vector(mi.Point3f, vertices.position)
         self.interaction.p = vector(mi.Point3f, vertices.start)
@@ -124,6 +154,23 @@ class Vertex:
         self.interaction.sh_frame = mi.Frame3f(self.face)
         self._viewer_side = dr.dot(self.face, self.view)
         self._scatters = (self._viewer_side > 0) | (dr.gather(mi.UInt32, vertices.double_sided, place) != 0)
+
+    @property
+    def material_in_double(self) -> optics.MaterialPoint:
+        """The material for closed forms in double precision."""
+        material, coat = self.material, self.material.coat
+        if coat is not None:
+            normal = dr.normalize(mi.Vector3d(coat.normal))
+            coat = Coat(mi.Float64(coat.factor), mi.Float64(coat.roughness), normal)
+        grain = material.grain
+        if grain is not None:
+            grain = Grain(mi.Float64(grain.strength), dr.normalize(mi.Vector3d(grain.direction)))
+        sheen = material.sheen
+        if sheen is not None:
+            sheen = Sheen(mi.Color3d(sheen.color), mi.Float64(sheen.roughness), mi.Float64(sheen.table))
+        metallic, roughness = mi.Float64(material.metallic), mi.Float64(material.roughness)
+        color, specular = mi.Color3d(material.base_color), mi.Float64(material.specular)
+        return optics.MaterialPoint(color, metallic, roughness, specular, coat, grain, sheen)
 
     def carries(self, light):
         """Bool: the transport's rule, light on the viewer's side of the geometric face, which must scatter."""

@@ -28,7 +28,7 @@ class World:
         around: the emitter of the environment, None where there is none.
         tables: the surfaces' attributes.
         masked: whether any material has an alpha mask.
-        slots: texture slots (and "color") that any shape uses.
+        slots: texture slots (and "color", and the materials' layers) that any shape uses.
     """
 
     scene: Scene
@@ -66,7 +66,7 @@ class World:
         around = None if scene.environment is None else _surroundings(scene)
         if around is not None:
             parts["environment"] = around
-        used = {slot for shape in scene.shapes for slot in shape.material.textures}
+        used = {slot for shape in scene.shapes for slot in (*shape.material.textures, *shape.material.layers)}
         if any(shape.mesh.colors is not None for shape in scene.shapes):
             used.add("color")
         return cls(

@@ -10,14 +10,14 @@ from lightmeter.scenes.points import SurfacePoints
 
 def stack_points(samples: Sequence[SurfacePoints]) -> SurfacePoints:
     """(n, H, W, …) of n captures of (H, W, …)."""
-    return SurfacePoints(**{f.name: np.stack([getattr(s, f.name) for s in samples]) for f in fields(SurfacePoints)})
+    parts = {f.name: [getattr(s, f.name) for s in samples] for f in fields(SurfacePoints)}
+    return SurfacePoints(**{name: np.stack(arrays) for name, arrays in parts.items() if arrays[0] is not None})
 
 
 def reshape_points(points: SurfacePoints, lead: tuple[int, ...]) -> SurfacePoints:
     """The same points with other leading axes."""
     old = points.shape.ndim
-    arrays = {f.name: getattr(points, f.name) for f in fields(SurfacePoints)}
-    return SurfacePoints(**{name: a.reshape(*lead, *a.shape[old:]) for name, a in arrays.items()})
+    return points.each(lambda a: a.reshape(*lead, *a.shape[old:]))
 
 
 def mean_samples(stacked: np.ndarray) -> np.ndarray:
@@ -27,4 +27,4 @@ def mean_samples(stacked: np.ndarray) -> np.ndarray:
 
 def at_sample(points: SurfacePoints, sample: int) -> SurfacePoints:
     """(H, W, …): one of the samples of (n, H, W, …)."""
-    return SurfacePoints(**{f.name: getattr(points, f.name)[sample] for f in fields(SurfacePoints)})
+    return points.each(lambda a: a[sample])

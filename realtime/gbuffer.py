@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.layers import COAT, GRAIN, LAYER_CHANNELS, SHEEN, layer_channels
 from lightmeter.scenes.model import Camera, Material, Scene, Texture, Vector
+from lightmeter.scenes.optics.sheen import albedo_table
 from lightmeter.scenes.points import SurfacePoints
 
 from . import layout
@@ -17,8 +19,8 @@ from .projection import projection_matrix, view_matrix, viewer, world_from_pixel
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
-CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion")
-"""What effects may read. A channel that is the same everywhere costs no attachment."""
+CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT, *GRAIN, *SHEEN)
+"""What effects may read. A channel that is the same everywhere, or of a layer that no material has, costs nothing."""
 
 
 PARTS: dict[str, tuple[str, slice | int]] = {
@@ -29,6 +31,13 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "metallic": ("base_color_metallic", 3),
     "specular": ("specular_occlusion", 0),
     "occlusion": ("specular_occlusion", 1),
+    "clearcoat": ("clearcoat_factors", 0),
+    "clearcoat_roughness": ("clearcoat_factors", 1),
+    "clearcoat_normal": ("clearcoat_normal", slice(3)),
+    "anisotropy": ("grain", 3),
+    "anisotropy_direction": ("grain", slice(3)),
+    "sheen_color": ("sheen", slice(3)),
+    "sheen_roughness": ("sheen", 3),
 }
 """Where in the attachments of floats each channel lies."""
 
@@ -43,6 +52,7 @@ def constant_channels(scene: Scene) -> dict[str, float | Vector]:
         "roughness": "metallic_roughness" in slots,
         "specular": False,
     }
+    varying |= {name: name in slots for name in layer_channels(scene) if name in (*COAT[:2], *SHEEN)}
     constants: dict[str, float | Vector] = {} if "occlusion" in slots else {"occlusion": 1.0}
     for name, varies in varying.items():
         values = {getattr(material, name) for material in materials}
@@ -63,10 +73,10 @@ class Draw:
 
 
 class GBuffer:
-    """Renders the surface's parameters.
+    """Renders the surface's parameters; where they are more than a draw can write, in groups, one after another.
 
     Args:
-        channels: those that are read; the rest is left out.
+        channels: those that are read; the rest is left out, and what belongs to layers that no material has.
         radiance: the texture that emission and the environment behind everything go to; None: they are left out.
         identity: whether each pixel's shape and triangle are written too (for the oracles).
         stored: formats of channels, see `layout.py`; those without one are kept in floats.
@@ -89,13 +99,15 @@ class GBuffer:
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
-        varying = channels - set(self.constants)
+        self.channels = channels - (frozenset((*COAT, *GRAIN, *SHEEN)) - set(layer_channels(scene)))
+        varying = self.channels - set(self.constants)
         possible = layout.attachments(stored or {})
         self._holding = [a for a in possible if "position" in a.channels or varying & set(a.channels)]
         self._formats = layout.defines(self._holding, scene.camera)
         self._stores: dict[GBuffer, tuple[Any, Any, Any]] = {}
         attachments = list(self._holding)
         self.textures = {a.name: device.target(size, a.components, a.dtype) for a in attachments}
+        self.tables = {"sheen_table": device.table(_sheen_table())} if "sheen_color" in self.channels else {}
         self.radiance = radiance
         emits = radiance is not None and bool(scene.area_lights)
         if emits:
@@ -107,7 +119,9 @@ class GBuffer:
         self._attachments = attachments
         device.counts["textures"] += 1
         self.depth = device.gl.depth_renderbuffer(size)
-        self._framebuffer = device.framebuffer(self.textures.values(), self.depth)
+        most = device.gl.info["GL_MAX_DRAW_BUFFERS"]
+        self._groups = [attachments[first : first + most] for first in range(0, len(attachments), most)]
+        self._framebuffers = [device.framebuffer([self.textures[a.name] for a in g], self.depth) for g in self._groups]
         # Where nothing emits, no shape writes radiance: it is cleared by itself.
         self._cleared = None if emits or radiance is None else device.framebuffer([radiance])
         surrounded = radiance is not None and scene.environment is not None and scene.environment.shines
@@ -115,7 +129,7 @@ class GBuffer:
         self.shines = emits or surrounded
         self.offset = 0.0, 0.0
         self._programs: dict[tuple, Any] = {}
-        self._draws = [self._prepare(batch) for batch in geometry.batches]
+        self._draws = [[self._prepare(batch, group) for batch in geometry.batches] for group in self._groups]
 
     @property
     def view_projection(self) -> np.ndarray:
@@ -127,7 +141,13 @@ class GBuffer:
         """What shaders that read the G-buffer are told: which textures there are and how, and the constants."""
         names: dict[str, object] = {f"GBUFFER_{a.name.upper()}": True for a in self._holding}
         names["GBUFFER_HAS_NORMAL"] = any("normal" in a.channels for a in self._holding)
-        return names | self._formats | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+        names |= self._formats | self._layers()
+        return names | {f"CONSTANT_{name.upper()}": value for name, value in self.constants.items()}
+
+    def _layers(self) -> dict[str, object]:
+        """The layers of materials that it holds."""
+        found = {layer for layer, channels in LAYER_CHANNELS.items() if self.channels & set(channels)}
+        return {f"LAYER_{layer.upper()}": True for layer in sorted(found)}
 
     @property
     def place(self) -> dict[str, Any]:
@@ -144,12 +164,9 @@ class GBuffer:
     def draw(self, offset: tuple[float, float] = (0.0, 0.0)) -> None:
         """Render with the scene sampled `offset` pixels right and down from the pixels' centres."""
         self.offset = offset
-        self._framebuffer.use()
-        self._framebuffer.clear()
         if self._cleared is not None:
             self._cleared.clear()
-            self._framebuffer.use()
-        self._draw_shapes(self.view_projection, frozenset())
+        self._draw_views([(self.view_projection, (0, 0, *self._size))])
         if self._background is not None:
             self._background.draw(offset)
 
@@ -163,23 +180,28 @@ class GBuffer:
         """
         rows = -(-len(matrices) // columns)
         width, height = self._size[0] // columns, self._size[1] // rows
-        self._framebuffer.viewport = (0, 0, *self._size)
-        self._framebuffer.use()
-        self._framebuffer.clear()
-        for tile, matrix in enumerate(matrices):
-            self._framebuffer.viewport = (tile % columns * width, tile // columns * height, width, height)
-            self._draw_shapes(matrix, excluded)
+        places = [(tile % columns * width, tile // columns * height) for tile in range(len(matrices))]
+        self._draw_views([(m, (*place, width, height)) for m, place in zip(matrices, places, strict=True)], excluded)
 
-    def _draw_shapes(self, matrix: np.ndarray, excluded: Collection[int]) -> None:
+    def _draw_views(
+        self, views: Sequence[tuple[np.ndarray, tuple[int, int, int, int]]], excluded: Collection[int] = ()
+    ) -> None:
+        """Clear everything and draw, for each view, its matrix and its part of the picture."""
         self._device.gl.enable_only(self._device.gl.DEPTH_TEST)
-        for program in self._programs.values():
-            set_uniforms(program, {"view_projection": matrix} | self.place)
-        for batch, draw in zip(self._geometry.batches, self._draws, strict=True):
-            if batch.shape in excluded:
-                continue
-            draw.uniforms.write()
-            bind(draw.program, draw.textures)
-            self._device.draw(draw.vertices, draw.count)
+        for framebuffer, draws in zip(self._framebuffers, self._draws, strict=True):
+            framebuffer.viewport = 0, 0, *self._size
+            framebuffer.use()
+            framebuffer.clear()
+            for matrix, part in views:
+                framebuffer.viewport = part
+                for program in self._programs.values():
+                    set_uniforms(program, {"view_projection": matrix} | self.place)
+                for batch, draw in zip(self._geometry.batches, draws, strict=True):
+                    if batch.shape in excluded:
+                        continue
+                    draw.uniforms.write()
+                    bind(draw.program, draw.textures)
+                    self._device.draw(draw.vertices, draw.count)
 
     def load(self, points: SurfacePoints, offset: tuple[float, float] | None = None) -> None:
         """Hold these points, as if they had been drawn: (H, W), with whatever parameters they have.
@@ -224,8 +246,8 @@ class GBuffer:
         attachment, part = PARTS[name]
         return self._device.read(self.textures[attachment])[..., part].copy()
 
-    def _prepare(self, batch: Batch) -> "Draw":
-        program = self._program(batch)
+    def _prepare(self, batch: Batch, group: list[layout.Attachment]) -> "Draw":
+        program = self._program(batch, group)
         values = material_uniforms(batch.material) | {"shape": batch.shape}
         textures = {f"{slot}_texture": texture for slot, texture in batch.material.textures.items()}
         return Draw(
@@ -236,20 +258,19 @@ class GBuffer:
             {name: self._geometry.texture(texture) for name, texture in textures.items() if name in program},
         )
 
-    def _program(self, batch: Batch):
+    def _program(self, batch: Batch, group: list[layout.Attachment]):
         material = batch.material
         slots = usable_slots(batch)
-        key = (batch.has, slots, material.alpha_mode, material.double_sided)
+        key = (batch.has, slots, material.alpha_mode, material.double_sided, group[0].name)
         if key not in self._programs:
             defines = self._formats | {f"HAS_{name.upper()}": True for name in batch.has}
             defines |= {f"TEXTURE_{slot[0].upper()}": True for slot in slots}
             defines["ALPHA_MASK"] = material.alpha_mode == "mask"
             defines["DOUBLE_SIDED"] = material.double_sided
+            defines |= self._layers()
             fragment = source("gbuffer.frag", defines).text
             fragment = fragment.replace("TEXTURE_DECLARATIONS", "\n".join(map(texture_declaration, slots)))
-            fragment = fragment.replace("ATTACHMENTS", declarations(self._attachments)).replace(
-                "    WRITES", writes(self._attachments)
-            )
+            fragment = fragment.replace("ATTACHMENTS", declarations(group)).replace("    WRITES", writes(group))
             program = self._device.program(Source(fragment), source("gbuffer.vert", defines))
             self._programs[key] = program
         return self._programs[key]
@@ -276,6 +297,11 @@ def _sampled_at(points: SurfacePoints, camera: Camera, size: tuple[int, int]) ->
     x, y, _, w = projection_matrix(camera, size) @ view_matrix(camera) @ seen.T
     right, down = (x / w + 1) / 2 * size[0] - columns - 0.5, (1 - y / w) / 2 * size[1] - rows - 0.5
     return float(np.median(right)), float(np.median(down))
+
+
+def _sheen_table() -> np.ndarray:
+    """The sheen's albedo as a texture, (32, 32, 4) float32; the same in all components."""
+    return np.repeat(albedo_table()[..., None], 4, axis=2).astype(np.float32)
 
 
 def usable_slots(batch: Batch) -> tuple[tuple[str, int, bool, bool], ...]:
@@ -310,6 +336,13 @@ def material_uniforms(material: Material) -> dict[str, object]:
         "normal_scale": material.normal_scale,
         "occlusion_strength": material.occlusion_strength,
         "alpha_cutoff": material.alpha_cutoff,
+        "sheen_color_factor": np.array(material.sheen_color),
+        "sheen_roughness_factor": material.sheen_roughness,
+        "anisotropy_factor": material.anisotropy,
+        "grain_turn": np.array([np.cos(material.anisotropy_rotation), np.sin(material.anisotropy_rotation)]),
+        "clearcoat_factor": material.clearcoat,
+        "clearcoat_roughness_factor": material.clearcoat_roughness,
+        "clearcoat_normal_scale": material.clearcoat_normal_scale,
     }
     for slot, texture in material.textures.items():
         values |= transform_uniforms(slot, texture)

@@ -101,7 +101,7 @@ class Geometry:
         ]
 
     def _batch(self, index: int, mesh: Mesh, material: Material) -> Batch:
-        arrays, indices = vertex_arrays(mesh, tangents="normal" in material.textures, texcoords=bool(material.textures))
+        arrays, indices = vertex_arrays(mesh, tangents=material.uses_tangents, texcoords=bool(material.textures))
         gl = self._device.gl
         buffers = {name: (f"{array.shape[1]}f", gl.buffer(array.tobytes())) for name, array in arrays.items()}
         elements = None if indices is None else gl.buffer(indices.astype(np.uint32).tobytes())

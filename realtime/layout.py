@@ -7,6 +7,7 @@ normal, base_color, and "parameters" for the four scalars of the material.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from lightmeter.scenes.layers import COAT, GRAIN, SHEEN
 from lightmeter.scenes.model import Camera
 
 BYTES = {"f4": 4, "f2": 2, "f1": 1, "nu2": 2}
@@ -43,6 +44,11 @@ POSITION = Attachment("position", ("position",), "vec4(world_position, 1.0)")
 NORMAL_ROUGHNESS = Attachment("normal_roughness", ("normal", "roughness"), "vec4(normal, roughness)")
 BASE_COLOR_METALLIC = Attachment("base_color_metallic", ("base_color", "metallic"), "vec4(base_color.rgb, metallic)")
 SPECULAR_OCCLUSION = Attachment("specular_occlusion", ("specular", "occlusion"), "vec2(specular_factor, occlusion)", 2)
+COATED = Attachment("clearcoat_factors", COAT[:2], "vec2(clearcoat, clearcoat_roughness)", 2)
+COAT_NORMAL = Attachment("clearcoat_normal", COAT[2:], "vec4(clearcoat_normal, 0.0)")
+GRAINED = Attachment("grain", GRAIN, "vec4(anisotropy_direction, anisotropy)")
+SHEENED = Attachment("sheen", SHEEN, "vec4(sheen_color, sheen_roughness)")
+LAYERS = (COATED, COAT_NORMAL, GRAINED, SHEENED)
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
 # Whole numbers that float32 holds exactly: the triangle's number in two halves of 12 bits and more.
 IDENTITY = Attachment("identity", (), "vec4(shape, gl_PrimitiveID & 4095, gl_PrimitiveID >> 12, 0.0)")
@@ -105,10 +111,10 @@ def attachments(stored: Mapping[str, str]) -> tuple[Attachment, ...]:
     if stored.get("parameters") == "unorm8":
         bare_normal = Attachment("normal_roughness", ("normal",), "vec4(normal, 0.0)")
         bare_color = Attachment("base_color_metallic", ("base_color",), "vec4(base_color.rgb, 0.0)")
-        return (*found, normal or bare_normal, color or bare_color, PARAMETERS)
+        return (*found, normal or bare_normal, color or bare_color, PARAMETERS, *LAYERS)
     found += [normal, ROUGHNESS] if normal else [NORMAL_ROUGHNESS]
     found += [color, METALLIC] if color else [BASE_COLOR_METALLIC]
-    return (*found, SPECULAR_OCCLUSION)
+    return (*found, SPECULAR_OCCLUSION, *LAYERS)
 
 
 def bytes_per_pixel(stored: Mapping[str, str]) -> int:

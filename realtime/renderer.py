@@ -263,7 +263,7 @@ class Renderer:
 
     def _channels(self, gbuffer: GBuffer) -> dict[str, np.ndarray]:
         """The channels, and the direction to the viewer from where the points lie."""
-        channels = {name: gbuffer.channel(name) for name in CHANNELS}
+        channels = {name: gbuffer.channel(name) for name in gbuffer.channels}
         position = channels["position"]
         eye = viewer(self.plan.scene.camera)
         view = (eye[:3] - eye[3] * position.astype(np.float64)).astype(np.float64)

@@ -84,7 +84,7 @@ class ShadingPass:
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
         if self._stage.scattered is not None:
             textures["scattered_light"] = self._stage.scattered.texture
-        textures |= self._tables
+        textures |= self._tables | self._stage.gbuffer.tables
         if self.own is not None:
             textures |= self.own.textures(step.light)
         bind(program, textures)

@@ -2,7 +2,17 @@
 
 import numpy as np
 
-from lightmeter.scenes.optics import arrays, environment, frames, lights, material, microfacet
+from lightmeter.scenes.optics import (
+    anisotropy,
+    arrays,
+    clear_coat,
+    environment,
+    frames,
+    lights,
+    material,
+    microfacet,
+    sheen,
+)
 
 from .twin import Argument, Twin, direction, logarithmic, uniform
 
@@ -193,6 +203,83 @@ def brightest_at_grazing(_rng: np.random.Generator, inputs: list[np.ndarray]) ->
     return [v_dot_h, np.minimum(f0, f90), np.maximum(f0, f90)]
 
 
+def coat(factor, roughness, normal) -> clear_coat.Coat:
+    """A coat in the order of the GLSL's arguments."""
+    return clear_coat.Coat(factor, roughness, normal)
+
+
+def above_the_mirror(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """As `near_the_mirror`, of a roughness, n, v and l, whatever stands before them."""
+    *others, roughness, n, v, light = inputs
+    unused = np.zeros_like(roughness)
+    *_, n, v, light = near_the_mirror(rng, [unused, unused, roughness, unused, n, v, light])
+    return [*others, roughness, n, v, light]
+
+
+def across_normal(grain: np.ndarray, n: np.ndarray) -> np.ndarray:
+    """The grain laid across the normal; beside it where the two agree."""
+    grain = grain - n * np.sum(n * grain, axis=0)
+    grain = np.where(np.linalg.norm(grain, axis=0) > 1e-3, grain, frames.basis(n, stack)[0])
+    return grain / np.linalg.norm(grain, axis=0)
+
+
+def with_grain(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A grain across the normal, light near the mirror, and both directions above the surface."""
+    roughness, strength, grain, n, v, light = inputs
+    unused = np.zeros_like(roughness)
+    *_, n, v, light = above(rng, near_the_mirror(rng, [unused, unused, roughness, unused, n, v, light]))
+    return [roughness, strength, across_normal(grain, n), n, v, light]
+
+
+def along_grain(tangent, bitangent_sign, normal, shading_normal, grain):
+    """The direction of the grain, of a pair."""
+    return frames.along_grain(tangent, bitangent_sign, normal, shading_normal, grain[0], grain[1], stack)
+
+
+def leaning_tangents(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """The tangent across the normal, the shading normal within a radian of it: else next to nothing is left."""
+    tangent, bitangent_sign, normal, shading_normal, grain = inputs
+    tangent = across_normal(tangent, normal)
+    shading_normal = normal + 0.5 * shading_normal
+    length = np.maximum(np.linalg.norm(grain, axis=0), 0.05)
+    return [tangent, bitangent_sign, normal, shading_normal / np.linalg.norm(shading_normal, axis=0), grain / length]
+
+
+def d_ggx_anisotropic(h, along, across_it):
+    """D of the half vector's components."""
+    return anisotropy.d_ggx(h[0], h[1], h[2], along, across_it)
+
+
+GRAIN_LOBE_ROUNDINGS = 1 + 3 + 2 + 1 + 3 + (2 * (2.5 + 3) + 4 + 2.5) + (3 + 3 + 3 + 1 + 1 + 2.5) + 2
+"""v + l, its square (3), inversesqrt (2) and the product, the components (3); D: two ratios and their squares' sum, all
+squared, three products and the division; masking: the stretched vector (3), its length (3 + 3), a product, a sum and
+the division; both times ½."""
+
+COAT_LOBE_ROUNDINGS = 1 + 3 + 3 + 2 + 3 + 16 + 12.5 + 3
+"""The half vector (12), D (16), V (12.5), n·l and its products (3)."""
+
+CURVE_ROUNDINGS = 2 + 3 + 8 + 2 + 2.5 + 3
+"""t (2), the coefficients (3), x to the power of c (8), 1 + b·…(2), the division (2.5), d·x + e (3)."""
+SHEEN_ROUNDINGS = 3 * CURVE_ROUNDINGS + 2 + 3
+"""Λ: three curves at most, their sum (2), exp (3); that of the exponent stands in the derivatives."""
+
+
+def white_sheen(roughness) -> sheen.Sheen:
+    """A sheen whose lobe alone matters."""
+    return sheen.Sheen(0.0, roughness, None)
+
+
+def under_open_sky(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A roughness of 0.3 and more, whose D is no power beyond float32, and directions above the surface."""
+    roughness, n, v, light = inputs
+    return [0.3 + 0.7 * roughness, *above(rng, [n, v, light])]
+
+
+def sheen_scaling(color, albedo_v, albedo_l):
+    """What is left of the base."""
+    return np.maximum(1 - color.max(axis=0) * np.maximum(albedo_v, albedo_l), 0)
+
+
 TWINS = (
     Twin(
         "brdf.glsl",
@@ -334,6 +421,170 @@ TWINS = (
         roundings=1 + 3 + 3 + 2 + 1 + 7 + 5 + 1 + 2 + 3,
         why="v + l, a square (3), a scalar product (3), inversesqrt (2) and the product; F (7) with F0 (5); 1 − F, "
         "c_diff (2), 1/π and two products",
+        cancels=1.0,
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coat_reflectance",
+        "float",
+        (unit("clearcoat"), Argument("n_dot_v", "float", uniform(-1.0, 1.0), (0.0, 1.0, -1.0, 1e-7))),
+        lambda clearcoat, n_dot_v: clearcoat * microfacet.f_schlick(np.abs(n_dot_v), clear_coat.F0, 1.0),
+        roundings=7 + 1,
+        why="F (7) and the product",
+        cancels=1.0,
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coat_lobe",
+        "float",
+        (unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)), towards("n"), towards("v"), towards("l")),
+        lambda roughness, n, v, light: clear_coat.lobe(coat(1.0, roughness, n), v, light),
+        roundings=COAT_LOBE_ROUNDINGS,
+        why="see COAT_LOBE_ROUNDINGS",
+        arrange=above_the_mirror,
+        signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
+    ),
+    Twin(
+        "clear_coat.glsl",
+        "coated",
+        "vec3",
+        (
+            color("base"),
+            unit("clearcoat"),
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        lambda base, clearcoat, roughness, n, v, light: clear_coat.over(coat(clearcoat, roughness, n), base, v, light),
+        roundings=COAT_LOBE_ROUNDINGS + 3 + 8 + 3,
+        why="the lobe, n·v (3), the coat's reflectance (8), mix (3)",
+        arrange=above_the_mirror,
+        signs=lambda _base, _clearcoat, _roughness, n, v, light: lit_signs(n, v, light),
+        cancels=1.0,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "turned",
+        "vec2",
+        tuple(Argument(name, "vec2", uniform(-1, 1, 2), ((1.0, 0.0), (0.0, 1.0))) for name in ("by", "direction")),
+        lambda by, d: stack(by[0] * d[0] - by[1] * d[1], by[1] * d[0] + by[0] * d[1]),
+        roundings=2,
+        why="two products and a sum",
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "across",
+        "vec3",
+        (towards("n"),),
+        lambda n: frames.basis(n, stack)[0],
+        roundings=1 + 2.5 + 4,
+        why="the sum, the division (2.5), the products (3) and a sum",
+        cancels=1.0,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "along_grain",
+        "vec3",
+        (
+            towards("tangent"),
+            Argument("bitangent_sign", "float", lambda rng, n: rng.choice([-1.0, 1.0], n)),
+            towards("normal"),
+            towards("shading_normal"),
+            Argument("grain", "vec2", uniform(-1, 1, 2), ((1.0, 0.0), (0.0, 1.0))),
+        ),
+        along_grain,
+        roundings=2 + 3 + 3 + 2 + 3 + 2 + 1,
+        why="the cross product (2), the sum of two products (3), n·d (3), its product and the difference, the square "
+        "(3), inversesqrt (2) and the product",
+        arrange=leaning_tangents,
+        guards=("1e-12",),
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "d_ggx_anisotropic",
+        "float",
+        (towards("h"), alpha("along"), alpha("across_it")),
+        d_ggx_anisotropic,
+        roundings=2 * (2.5 + 1 + 2) + 4 + 2.5,
+        why="the ratios (2.5), their squares and sum (3), all squared; four products, the division",
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "grain_lobe",
+        "float",
+        (
+            unit("roughness", (0.0, 0.03, 0.031622, 0.04, 1.0)),
+            unit("strength"),
+            towards("grain"),
+            towards("n"),
+            towards("v"),
+            towards("l"),
+        ),
+        lambda roughness, strength, grain, n, v, light: anisotropy.lobe(
+            anisotropy.Grain(strength, grain), microfacet.alpha_from_roughness(roughness), n, v, light
+        ),
+        roundings=GRAIN_LOBE_ROUNDINGS,
+        why="see GRAIN_LOBE_ROUNDINGS",
+        arrange=with_grain,
+    ),
+    Twin(
+        "sheen.glsl",
+        "d_charlie",
+        "float",
+        (
+            cosine("n_dot_h"),
+            Argument("sin2_h", "float", logarithmic(1e-3, 1.0), (0.9, 1.0)),
+            Argument("alpha", "float", logarithmic(0.1, 1.0), (1.0,)),
+        ),
+        sheen.d_charlie,
+        roundings=2.5 + 2 + 4 + 3 + 3,
+        why="1/α (2.5), its products (2), log near 1 (4 ε), exp (3), the sum and two products",
+        cancels=1.0,
+        guards=("1e-30",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_curve",
+        "float",
+        (cosine("x"), alpha("alpha")),
+        sheen.curve,
+        roundings=CURVE_ROUNDINGS,
+        why="see CURVE_ROUNDINGS",
+        cancels=5.0,
+        guards=("1e-30",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_shadowing",
+        "float",
+        (cosine("cosine"), alpha("alpha")),
+        sheen.shadowing,
+        roundings=SHEEN_ROUNDINGS * 17,
+        why="see SHEEN_ROUNDINGS; the exponent is up to 17, and its rounding that of as many",
+        guards=("0.5",),  # where the branches meet
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_lobe",
+        "float",
+        (unit("roughness", (0.5, 1.0)), towards("n"), towards("v"), towards("l")),
+        lambda roughness, n, v, light: sheen.lobe(white_sheen(roughness), n, v, light),
+        roundings=12 + 15 + SHEEN_ROUNDINGS * 17 + 6,
+        why="the half vector (12), D (15), Λ twice, the sum, products and the division (6)",
+        arrange=under_open_sky,
+        signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
+        cancels=1e-3,
+        guards=("1e-6",),
+    ),
+    Twin(
+        "sheen.glsl",
+        "sheen_scaling",
+        "float",
+        (color("color"), unit("albedo_v"), unit("albedo_l")),
+        sheen_scaling,
+        roundings=2,
+        why="the product and the difference",
         cancels=1.0,
     ),
     Twin(

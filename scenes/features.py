@@ -18,7 +18,7 @@ def is_flat(shape: Shape) -> bool:
     heights = (mesh.positions - a[np.argmax(areas)]) @ normal
     facing = np.all(faces @ normal >= -1e-6 * areas)
     smooth = mesh.normals is None or bool(np.all(np.abs(mesh.normals @ normal - 1) < 1e-5))
-    mapped = "normal" in shape.material.textures
+    mapped = shape.material.has_normal_map
     return bool(np.all(np.abs(heights) <= 1e-6 * size) and facing and smooth and not mapped)
 
 

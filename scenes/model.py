@@ -102,6 +102,14 @@ class Material:
         emissive: radiance leaving the front, W/(sr·m²) (KHR_materials_emissive_strength is folded in).
         alpha_mode: "opaque", or "mask": a point is there where alpha ≥ `alpha_cutoff`.
         double_sided: else the back is opaque and black (it absorbs) on both sides of the comparison.
+        clearcoat, clearcoat_roughness: KHR_materials_clearcoat, 0…1; 0: there is no coat.
+        clearcoat_texture, clearcoat_roughness_texture: factors in red and in green.
+        clearcoat_normal_texture: without one the coat is smooth, whatever the base's normal texture does.
+        anisotropy: KHR_materials_anisotropy's strength, 0…1; 0: the gloss is alike in all directions.
+        anisotropy_rotation: of the grain, from the tangent towards the bitangent, radians.
+        anisotropy_texture: the grain's direction in red and green (0…1 stands for −1…1), a factor in blue.
+        sheen_color, sheen_roughness: KHR_materials_sheen, 0…1; black: there is no sheen.
+        sheen_color_texture, sheen_roughness_texture: factors in red, green and blue (sRGB-encoded), and in alpha.
         left_out: extensions of its file that are not read and would change how it looks.
     """
 
@@ -122,14 +130,49 @@ class Material:
     alpha_mode: Literal["opaque", "mask"] = "opaque"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
+    clearcoat: float = 0.0
+    clearcoat_roughness: float = 0.0
+    clearcoat_texture: Texture | None = None
+    clearcoat_roughness_texture: Texture | None = None
+    clearcoat_normal_texture: Texture | None = None
+    clearcoat_normal_scale: float = 1.0
+    anisotropy: float = 0.0
+    anisotropy_rotation: float = 0.0
+    anisotropy_texture: Texture | None = None
+    sheen_color: Vector = (0.0, 0.0, 0.0)
+    sheen_roughness: float = 0.0
+    sheen_color_texture: Texture | None = None
+    sheen_roughness_texture: Texture | None = None
     left_out: tuple[str, ...] = ()
 
     @property
     def textures(self) -> dict[str, Texture]:
-        """The textures it has, by the slot's name."""
+        """The textures it looks up, by the slot's name: those of a layer only where there is the layer."""
         slots = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
+        if self.clearcoat > 0:
+            slots += ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
+        if self.anisotropy > 0:
+            slots += ("anisotropy",)
+        if max(self.sheen_color) > 0:
+            slots += ("sheen_color", "sheen_roughness")
         found = {slot: getattr(self, f"{slot}_texture") for slot in slots}
         return {slot: texture for slot, texture in found.items() if texture is not None}
+
+    @property
+    def layers(self) -> frozenset[str]:
+        """What it has beyond the metallic-roughness base: "coat", "grain" (anisotropy), "sheen"."""
+        there = {"coat": self.clearcoat > 0, "grain": self.anisotropy > 0, "sheen": max(self.sheen_color) > 0}
+        return frozenset(name for name, is_there in there.items() if is_there)
+
+    @property
+    def has_normal_map(self) -> bool:
+        """Whether any of its normals is not the mesh's."""
+        return not self.textures.keys().isdisjoint({"normal", "clearcoat_normal"})
+
+    @property
+    def uses_tangents(self) -> bool:
+        """Whether its mesh needs tangents."""
+        return self.has_normal_map or self.anisotropy > 0
 
     @property
     def emits(self) -> bool:

@@ -1,5 +1,6 @@
 """The surface points a frame sees: what the G-buffer tells the oracles, with no renderer's types in it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -18,6 +19,11 @@ class SurfacePoints:
         emission: (H, W, 3) radiance towards the viewer, W/(sr·m²); the environment's where nothing is hit.
         shape: (H, W) int32, index into `Scene.shapes`, −1 where nothing is hit.
         triangle: (H, W) int32, index into the shape's triangles, −1 where nothing is hit.
+        clearcoat, clearcoat_roughness: (H, W) each, 0…1; None where the scene has no coats.
+        clearcoat_normal: (H, W, 3) unit normal of the coat, turned as `normal` is; None where it is that everywhere.
+        anisotropy: (H, W) strength, 0…1; None where no material has a grain.
+        anisotropy_direction: (H, W, 3) unit, along the grain, across `normal`; None likewise.
+        sheen_color, sheen_roughness: (H, W, 3) and (H, W), 0…1; None where no material has a sheen.
     """
 
     position: np.ndarray
@@ -31,6 +37,13 @@ class SurfacePoints:
     emission: np.ndarray
     shape: np.ndarray
     triangle: np.ndarray
+    clearcoat: np.ndarray | None = None
+    clearcoat_roughness: np.ndarray | None = None
+    clearcoat_normal: np.ndarray | None = None
+    anisotropy: np.ndarray | None = None
+    anisotropy_direction: np.ndarray | None = None
+    sheen_color: np.ndarray | None = None
+    sheen_roughness: np.ndarray | None = None
 
     @property
     def hit(self) -> np.ndarray:
@@ -39,4 +52,9 @@ class SurfacePoints:
 
     def at(self, mask: np.ndarray) -> "SurfacePoints":
         """The points where `mask` (H, W) is true, flattened: (N, …) each."""
-        return replace(self, **{f.name: getattr(self, f.name)[mask] for f in fields(self)})
+        return self.each(lambda array: array[mask])
+
+    def each(self, change: Callable[[np.ndarray], np.ndarray]) -> "SurfacePoints":
+        """The same points with `change` applied to every array that is there."""
+        arrays = {f.name: getattr(self, f.name) for f in fields(self)}
+        return replace(self, **{name: change(a) for name, a in arrays.items() if a is not None})

@@ -11,9 +11,13 @@ import numpy as np
 from lightmeter.groundtruth.surface import SurfacePoint
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.world import World
+from lightmeter.scenes.layers import COAT, layer_channels
 from lightmeter.scenes.points import SurfacePoints
 
 TERM = "material"
+
+SCALARS = ("metallic", "roughness", "specular", "occlusion")
+VECTORS = ("normal", "base_color", "emission")
 
 
 def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0, batch: int = 0) -> SurfacePoints:
@@ -24,17 +28,13 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
     lead = points.shape.shape
     flat = points.at(np.ones(lead, bool))
     where = np.flatnonzero(flat.shape >= 0)
-    scalar = {
-        name: np.zeros(flat.shape.shape, np.float32) for name in ("metallic", "roughness", "specular", "occlusion")
-    }
-    vector = {name: np.zeros((*flat.shape.shape, 3), np.float32) for name in ("normal", "base_color", "emission")}
-    vector["emission"][flat.shape < 0] = flat.emission[flat.shape < 0]
+    names = (*SCALARS, *VECTORS, *layer_channels(world.scene))
+    exact = {name: np.zeros((*flat.shape.shape, *_extent(name)), np.float32) for name in names}
+    exact["emission"][flat.shape < 0] = flat.emission[flat.shape < 0]
     if len(where):
         for name, value in _read(world, flat, where).items():
-            (scalar if name in scalar else vector)[name][where] = value
-    shaped = {name: v.reshape(lead) for name, v in scalar.items()}
-    shaped |= {name: v.reshape(*lead, 3) for name, v in vector.items()}
-    return replace(points, **shaped)
+            exact[name][where] = value
+    return replace(points, **{name: value.reshape(*lead, *_extent(name)) for name, value in exact.items()})
 
 
 def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.ndarray]:
@@ -52,7 +52,7 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
     behind = dr.dot(corners.face_cross, view) < 0
     normal = dr.select(behind & point.double_sided, -point.normal, point.normal)
     emission = dr.select(behind & ~point.double_sided, 0, point.emission)
-    material, occlusion = point.material, point.occlusion
+    material, occlusion = point.material.turned(behind & point.double_sided), point.occlusion
     found = {
         "normal": normal,
         "base_color": material.base_color,
@@ -62,12 +62,20 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
         "specular": material.specular,
         "occlusion": occlusion,
     }
+    layers = layer_channels(world.scene)
+    if material.coat is not None:
+        coat = dict(zip(COAT, (material.coat.factor, material.coat.roughness, material.coat.normal), strict=True))
+        found |= {name: value for name, value in coat.items() if name in layers}
+    if material.grain is not None:
+        found |= {"anisotropy": material.grain.strength, "anisotropy_direction": material.grain.direction}
+    if material.sheen is not None:
+        found |= {"sheen_color": material.sheen.color, "sheen_roughness": material.sheen.roughness}
     dr.eval(list(found.values()))
-    return {name: np.broadcast_to(value.numpy().T, _extent(name, len(where))) for name, value in found.items()}
+    return {name: np.broadcast_to(value.numpy().T, (len(where), *_extent(name))) for name, value in found.items()}
 
 
-def _extent(name: str, count: int) -> tuple[int, ...]:
-    return (count, 3) if name in ("normal", "base_color", "emission") else (count,)
+def _extent(name: str) -> tuple[int, ...]:
+    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction", "sheen_color") else ()
 
 
 def _barycentric(corners: SurfacePoint, position):

@@ -13,6 +13,20 @@ uniform vec3 emissive_factor;
 uniform float normal_scale;
 uniform float occlusion_strength;
 uniform float alpha_cutoff;
+#ifdef LAYER_COAT
+uniform float clearcoat_factor;
+uniform float clearcoat_roughness_factor;
+uniform float clearcoat_normal_scale;
+#endif
+#ifdef LAYER_GRAIN
+#include "anisotropy.glsl"
+uniform float anisotropy_factor;
+uniform vec2 grain_turn; // cosine and sine
+#endif
+#ifdef LAYER_SHEEN
+uniform vec3 sheen_color_factor;
+uniform float sheen_roughness_factor;
+#endif
 uniform int shape;
 in vec3 world_position;
 in vec3 vertex_normal;
@@ -63,6 +77,47 @@ void main() {
     float occlusion = 1.0;
 #ifdef TEXTURE_OCCLUSION
     occlusion = 1.0 + occlusion_strength * (look_up_occlusion().r - 1.0);
+#endif
+#ifdef LAYER_GRAIN
+    float anisotropy = anisotropy_factor;
+    vec2 grain = grain_turn;
+#ifdef TEXTURE_ANISOTROPY
+    vec3 grain_texel = look_up_anisotropy().rgb;
+    anisotropy *= grain_texel.b;
+    grain = turned(grain, 2.0 * grain_texel.rg - 1.0);
+#endif
+#ifdef HAS_TANGENT
+    vec3 anisotropy_direction = along_grain(vertex_tangent.xyz, vertex_tangent.w, vertex_normal, normal, grain);
+#else
+    vec3 anisotropy_direction = across(normal);
+#endif
+#endif
+#ifdef LAYER_SHEEN
+    vec3 sheen_color = sheen_color_factor;
+    float sheen_roughness = sheen_roughness_factor;
+#ifdef TEXTURE_SHEEN_COLOR
+    sheen_color *= look_up_sheen_color().rgb;
+#endif
+#ifdef TEXTURE_SHEEN_ROUGHNESS
+    sheen_roughness *= look_up_sheen_roughness().a;
+#endif
+#endif
+#ifdef LAYER_COAT
+    float clearcoat = clearcoat_factor;
+    float clearcoat_roughness = clearcoat_roughness_factor;
+#ifdef TEXTURE_CLEARCOAT
+    clearcoat *= look_up_clearcoat().r;
+#endif
+#ifdef TEXTURE_CLEARCOAT_ROUGHNESS
+    clearcoat_roughness *= look_up_clearcoat_roughness().g;
+#endif
+#if defined(TEXTURE_CLEARCOAT_NORMAL) && defined(HAS_TANGENT)
+    vec3 clearcoat_normal = tangent_to_world(vertex_tangent.xyz, vertex_tangent.w, vertex_normal,
+                                             decode_normal(look_up_clearcoat_normal().rgb, clearcoat_normal_scale));
+#else
+    vec3 clearcoat_normal = normalize(vertex_normal);
+#endif
+    clearcoat_normal = gl_FrontFacing ? clearcoat_normal : -clearcoat_normal;
 #endif
 #ifdef DOUBLE_SIDED
     normal = gl_FrontFacing ? normal : -normal;

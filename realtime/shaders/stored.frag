@@ -12,5 +12,18 @@ void main() {
     float roughness = surface.roughness;
     float specular_factor = surface.specular;
     float occlusion = surface.occlusion;
+#ifdef LAYER_COAT
+    float clearcoat = surface.clearcoat;
+    float clearcoat_roughness = surface.clearcoat_roughness;
+    vec3 clearcoat_normal = surface.clearcoat_normal;
+#endif
+#ifdef LAYER_GRAIN
+    float anisotropy = surface.anisotropy;
+    vec3 anisotropy_direction = surface.anisotropy_direction;
+#endif
+#ifdef LAYER_SHEEN
+    vec3 sheen_color = surface.sheen_color;
+    float sheen_roughness = surface.sheen_roughness;
+#endif
     WRITES
 }

@@ -7,6 +7,7 @@ uniform sampler2D gbuffer_position, gbuffer_depth;
 uniform sampler2D gbuffer_normal_roughness, gbuffer_normal, gbuffer_octahedral_normal, gbuffer_roughness;
 uniform sampler2D gbuffer_base_color_metallic, gbuffer_base_color, gbuffer_metallic;
 uniform sampler2D gbuffer_specular_occlusion, gbuffer_parameters;
+uniform sampler2D gbuffer_clearcoat_factors, gbuffer_clearcoat_normal, gbuffer_grain, gbuffer_sheen;
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -18,6 +19,19 @@ struct Surface {
     float roughness;
     float specular;
     float occlusion;
+#ifdef LAYER_SHEEN
+    vec3 sheen_color;
+    float sheen_roughness;
+#endif
+#ifdef LAYER_GRAIN
+    float anisotropy;
+    vec3 anisotropy_direction;
+#endif
+#ifdef LAYER_COAT
+    float clearcoat;
+    float clearcoat_roughness;
+    vec3 clearcoat_normal;
+#endif
 };
 
 // How many pixels there are, across and upright.
@@ -87,6 +101,26 @@ bool fetch_surface(ivec2 pixel, out Surface surface) {
     surface.specular = parameters.b;
     surface.occlusion = parameters.a;
 #endif
+#ifdef GBUFFER_CLEARCOAT_FACTORS
+    vec2 clearcoat_factors = texelFetch(gbuffer_clearcoat_factors, pixel, 0).rg;
+    surface.clearcoat = clearcoat_factors.r;
+    surface.clearcoat_roughness = clearcoat_factors.g;
+#endif
+#ifdef GBUFFER_CLEARCOAT_NORMAL
+    surface.clearcoat_normal = texelFetch(gbuffer_clearcoat_normal, pixel, 0).xyz;
+#elif defined(LAYER_COAT)
+    surface.clearcoat_normal = surface.normal;
+#endif
+#ifdef GBUFFER_GRAIN
+    vec4 grain = texelFetch(gbuffer_grain, pixel, 0);
+    surface.anisotropy = grain.w;
+    surface.anisotropy_direction = grain.xyz;
+#endif
+#ifdef GBUFFER_SHEEN
+    vec4 sheen = texelFetch(gbuffer_sheen, pixel, 0);
+    surface.sheen_color = sheen.rgb;
+    surface.sheen_roughness = sheen.a;
+#endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;
 #endif
@@ -101,6 +135,18 @@ bool fetch_surface(ivec2 pixel, out Surface surface) {
 #endif
 #ifdef CONSTANT_OCCLUSION
     surface.occlusion = CONSTANT_OCCLUSION;
+#endif
+#if defined(LAYER_COAT) && defined(CONSTANT_CLEARCOAT)
+    surface.clearcoat = CONSTANT_CLEARCOAT;
+#endif
+#if defined(LAYER_COAT) && defined(CONSTANT_CLEARCOAT_ROUGHNESS)
+    surface.clearcoat_roughness = CONSTANT_CLEARCOAT_ROUGHNESS;
+#endif
+#if defined(LAYER_SHEEN) && defined(CONSTANT_SHEEN_COLOR)
+    surface.sheen_color = CONSTANT_SHEEN_COLOR;
+#endif
+#if defined(LAYER_SHEEN) && defined(CONSTANT_SHEEN_ROUGHNESS)
+    surface.sheen_roughness = CONSTANT_SHEEN_ROUGHNESS;
 #endif
     return seen;
 }

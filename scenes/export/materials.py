@@ -1,4 +1,5 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
+_anisotropy, _sheen)."""
 
 from typing import Any
 
@@ -8,8 +9,10 @@ from .radiant import color_and_strength
 from .textures import Textures
 
 EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
+CLEARCOAT, ANISOTROPY = "KHR_materials_clearcoat", "KHR_materials_anisotropy"
+SHEEN = "KHR_materials_sheen"
 CODING = {True: "sRGB", False: "linear"}
-COLOURED = ("base_color", "emissive")
+COLOURED = ("base_color", "emissive", "sheen_color")
 """The textures whose colours glTF takes for sRGB-encoded; the others are linear."""
 
 
@@ -79,7 +82,47 @@ class Materials:
             extensions[EMISSIVE_STRENGTH] = {"emissiveStrength": strength}
         if material.specular != 1:
             extensions[SPECULAR] = {"specularFactor": material.specular}
+        if "coat" in material.layers:
+            extensions[CLEARCOAT] = _coat(material, info)
+        if "grain" in material.layers:
+            extensions[ANISOTROPY] = _grain(material, info)
+        if "sheen" in material.layers:
+            extensions[SHEEN] = _sheen(material, info)
         if extensions:
             content["extensions"] = extensions
             self.extensions |= set(extensions)
         return content
+
+
+def _coat(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """KHR_materials_clearcoat; `info` holds the textures by slot."""
+    coat: dict[str, Any] = {
+        "clearcoatFactor": material.clearcoat,
+        "clearcoatRoughnessFactor": material.clearcoat_roughness,
+    }
+    if "clearcoat" in info:
+        coat["clearcoatTexture"] = info["clearcoat"]
+    if "clearcoat_roughness" in info:
+        coat["clearcoatRoughnessTexture"] = info["clearcoat_roughness"]
+    if "clearcoat_normal" in info:
+        coat["clearcoatNormalTexture"] = info["clearcoat_normal"] | {"scale": material.clearcoat_normal_scale}
+    return coat
+
+
+def _grain(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """KHR_materials_anisotropy."""
+    grain = {"anisotropyStrength": material.anisotropy, "anisotropyRotation": material.anisotropy_rotation}
+    return grain | ({"anisotropyTexture": info["anisotropy"]} if "anisotropy" in info else {})
+
+
+def _sheen(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """KHR_materials_sheen."""
+    sheen: dict[str, Any] = {
+        "sheenColorFactor": list(material.sheen_color),
+        "sheenRoughnessFactor": material.sheen_roughness,
+    }
+    if "sheen_color" in info:
+        sheen["sheenColorTexture"] = info["sheen_color"]
+    if "sheen_roughness" in info:
+        sheen["sheenRoughnessTexture"] = info["sheen_roughness"]
+    return sheen

@@ -254,6 +254,33 @@ class Specular(Part):
     color_texture: TextureInfo | None = Field(None, alias="specularColorTexture")
 
 
+class ClearCoat(Part):
+    """KHR_materials_clearcoat."""
+
+    factor: Fraction = Field(0.0, alias="clearcoatFactor")
+    texture: TextureInfo | None = Field(None, alias="clearcoatTexture")
+    roughness: Fraction = Field(0.0, alias="clearcoatRoughnessFactor")
+    roughness_texture: TextureInfo | None = Field(None, alias="clearcoatRoughnessTexture")
+    normal_texture: NormalTextureInfo | None = Field(None, alias="clearcoatNormalTexture")
+
+
+class Anisotropy(Part):
+    """KHR_materials_anisotropy."""
+
+    strength: Fraction = Field(0.0, alias="anisotropyStrength")
+    rotation: Number = Field(0.0, alias="anisotropyRotation")
+    texture: TextureInfo | None = Field(None, alias="anisotropyTexture")
+
+
+class Sheen(Part):
+    """KHR_materials_sheen."""
+
+    color: tuple[Fraction, Fraction, Fraction] = Field((0.0, 0.0, 0.0), alias="sheenColorFactor")
+    color_texture: TextureInfo | None = Field(None, alias="sheenColorTexture")
+    roughness: Fraction = Field(0.0, alias="sheenRoughnessFactor")
+    roughness_texture: TextureInfo | None = Field(None, alias="sheenRoughnessTexture")
+
+
 class Cone(Part):
     inner: Annotated[float, Field(strict=True, ge=0, le=1.5707964)] = Field(0.0, alias="innerConeAngle")
     outer: Annotated[float, Field(strict=True, gt=0, le=1.5707964)] = Field(0.7853981633974483, alias="outerConeAngle")

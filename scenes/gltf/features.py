@@ -7,7 +7,10 @@ from lightmeter.scenes.gltf.source import Source
 
 READ = {
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
+    "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -18,13 +21,10 @@ HARMLESS = {
 }
 CONSEQUENCES = {
     "EXT_mesh_gpu_instancing": "instances are left out of both pictures",
-    "KHR_materials_anisotropy": "highlights are isotropic in both pictures",
-    "KHR_materials_clearcoat": "the coat is left out of both pictures",
     "KHR_materials_dispersion": "colours are not dispersed in either picture",
     "KHR_materials_ior": "the index of refraction is 1.5 in both pictures",
     "KHR_materials_iridescence": "the thin film is left out of both pictures",
     "KHR_materials_pbrSpecularGlossiness": "the metallic-roughness values beside it are used in both pictures",
-    "KHR_materials_sheen": "the sheen is left out of both pictures",
     "KHR_materials_transmission": "what should be transparent is opaque in both pictures",
     "KHR_materials_unlit": "its shapes are lit like any other in both pictures",
     "KHR_materials_variants": "the default variant is used",

@@ -1,4 +1,7 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, KHR_materials_specular)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
+_anisotropy, _sheen)."""
+
+from typing import Any
 
 from lightmeter.scenes.gltf import document
 from lightmeter.scenes.gltf.features import HARMLESS, READ
@@ -79,8 +82,56 @@ class Materials:
             alpha_mode="mask" if part.alpha_mode == "MASK" else "opaque",
             alpha_cutoff=part.alpha_cutoff,
             double_sided=part.double_sided,
+            **self._coat(part, place),
+            **self._grain(part, place),
+            **self._sheen(part, place),
             left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
+
+    def _coat(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of a coat, where there is one: a factor of 0 disables the layer with its textures."""
+        name = "KHR_materials_clearcoat"
+        coat = self._source.extension(part, name, document.ClearCoat, place)
+        if coat is None or coat.factor == 0:
+            return {}
+        if max(part.emissive) > 0:
+            self._source.note(f"{part.name or place}: the coat does not darken its emission in either picture")
+        read, here = self._textures.texture, f"{place}.extensions.{name}"
+        return {
+            "clearcoat": coat.factor,
+            "clearcoat_roughness": coat.roughness,
+            "clearcoat_texture": read(coat.texture, False, f"{here}.clearcoatTexture"),
+            "clearcoat_roughness_texture": read(coat.roughness_texture, False, f"{here}.clearcoatRoughnessTexture"),
+            "clearcoat_normal_texture": read(coat.normal_texture, False, f"{here}.clearcoatNormalTexture"),
+            "clearcoat_normal_scale": coat.normal_texture.scale if coat.normal_texture else 1.0,
+        }
+
+    def _grain(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of anisotropy, where there is any."""
+        name = "KHR_materials_anisotropy"
+        grain = self._source.extension(part, name, document.Anisotropy, place)
+        if grain is None or grain.strength == 0:
+            return {}
+        here = f"{place}.extensions.{name}.anisotropyTexture"
+        return {
+            "anisotropy": grain.strength,
+            "anisotropy_rotation": grain.rotation,
+            "anisotropy_texture": self._textures.texture(grain.texture, False, here),
+        }
+
+    def _sheen(self, part: document.Material, place: str) -> dict[str, Any]:
+        """The parameters of a sheen, where there is one."""
+        name = "KHR_materials_sheen"
+        sheen = self._source.extension(part, name, document.Sheen, place)
+        if sheen is None or max(sheen.color) == 0:
+            return {}
+        read, here = self._textures.texture, f"{place}.extensions.{name}"
+        return {
+            "sheen_color": sheen.color,
+            "sheen_roughness": sheen.roughness,
+            "sheen_color_texture": read(sheen.color_texture, True, f"{here}.sheenColorTexture"),
+            "sheen_roughness_texture": read(sheen.roughness_texture, False, f"{here}.sheenRoughnessTexture"),
+        }
 
     def _specular(self, part: document.Material, place: str) -> float:
         specular = self._source.extension(part, "KHR_materials_specular", document.Specular, place)

@@ -65,6 +65,14 @@ def log(x: Array) -> Array:
     return _drjit().log(x) if _is_drjit(x) else np.log(x)
 
 
+def take(table: Array, index: Array) -> Array:
+    """The table's elements, (N,), at whole numbers within it."""
+    if _is_drjit(table):
+        whole = _drjit().uint32_array_t(type(table))
+        return _drjit().gather(type(table), table, whole(index))
+    return table[np.asarray(index).astype(np.intp)]
+
+
 def arctan2(y: Array, x: Array) -> Array:
     """The angle of (x, y), radians."""
     return _drjit().atan2(y, x) if _is_drjit(y, x) else np.arctan2(y, x)

@@ -18,6 +18,19 @@ def decode_normal(texel: Array, scale: Array, vector) -> Array:
     return vector((2 * texel[0] - 1) * scale, (2 * texel[1] - 1) * scale, 2 * texel[2] - 1)
 
 
+def along_grain(
+    tangent: Array, bitangent_sign: Array, normal: Array, shading_normal: Array, x: Array, y: Array, vector
+) -> Array:
+    """The unit direction x·t + y·b of MikkTSpace's frame, laid across the shading normal.
+
+    Where nothing of it is left (no tangent, or one along the normal), the first axis of `basis`.
+    """
+    direction = x * tangent + y * bitangent_sign * xp.cross(normal, tangent)
+    direction = direction - xp.dot(direction, shading_normal) * shading_normal
+    there = xp.dot(direction, direction) > 1e-12
+    return xp.normalize(xp.where(there, direction, basis(shading_normal, vector)[0]))
+
+
 def basis(n: Array, vector) -> tuple[Array, Array]:
     """Two unit vectors that make a right-handed orthonormal frame (s, t, n) (Duff et al. 2017, listing 3)."""
     sign = xp.where(n[2] >= 0, 1.0 + 0 * n[2], -1.0 + 0 * n[2])

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from . import arrays as xp
 from .arrays import Array
+from .frames import basis
 
 PI = 3.141592653589793
 MIN_ALPHA = 1e-3
@@ -116,13 +117,16 @@ def f_schlick(v_dot_h: Array, f0: Array, f90: Array) -> Array:
     return f0 + (f90 - f0) * (m2 * m2 * m)
 
 
-def sample_visible_normal(v: Array, alpha: Array, u1: Array, u2: Array, vector: Callable) -> Array:
+def sample_visible_normal(
+    v: Array, alpha: Array, u1: Array, u2: Array, vector: Callable, alpha_y: Array | None = None
+) -> Array:
     """A microfacet normal seen from v, with density D_v = G1·max(0, v·h)·D/(n·v) (Heitz 2018, listing 1).
 
     v is in the local frame (n = +z, v.z > 0). `vector` builds a vector from x, y, z (Dr.Jit's
-    `Vector3f`; in NumPy `lambda *c: np.stack(c)`).
+    `Vector3f`; in NumPy `lambda *c: np.stack(c)`). `alpha_y` is α along y where it is another than along x.
     """
-    vh = xp.normalize(vector(alpha * v[0], alpha * v[1], v[2]))
+    alpha_y = alpha if alpha_y is None else alpha_y
+    vh = xp.normalize(vector(alpha * v[0], alpha_y * v[1], v[2]))
     length2 = vh[0] * vh[0] + vh[1] * vh[1]
     inverse = xp.where(length2 > 0, 1 / xp.sqrt(xp.maximum(length2, 1e-38)), 0 * length2)
     flat = length2 > 0
@@ -136,4 +140,26 @@ def sample_visible_normal(v: Array, alpha: Array, u1: Array, u2: Array, vector: 
     p2 = (1 - s) * xp.sqrt(xp.maximum(1 - p1 * p1, 0.0)) + s * (radius * sin_phi)
     p3 = xp.sqrt(xp.maximum(1 - p1 * p1 - p2 * p2, 0.0))
     nh = p1 * t1 + p2 * t2 + p3 * vh
-    return xp.normalize(vector(alpha * nh[0], alpha * nh[1], xp.maximum(nh[2], 1e-6)))
+    return xp.normalize(vector(alpha * nh[0], alpha_y * nh[1], xp.maximum(nh[2], 1e-6)))
+
+
+def mirrored_density(n_dot_v: Array, d: Array, alpha: Array) -> Array:
+    """Density over l of light mirrored at a visible normal of GGX, 1/sr: G1·D/(4·n·v) (Heitz 2018, eq. 17).
+
+    It is the density of visible normals over h, times dh/dl = 1/(4·v·h).
+
+    Args:
+        d: D at the half vector.
+    """
+    a2 = alpha * alpha
+    g1_over_4nv = 0.5 / xp.maximum(n_dot_v + xp.sqrt(n_dot_v * n_dot_v * (1 - a2) + a2), 1e-30)
+    return g1_over_4nv * d
+
+
+def sample_mirrored(n: Array, v: Array, alpha: Array, u1: Array, u2: Array, vector: Callable) -> Array:
+    """A direction with density `mirrored_density`; may fall below the horizon. `vector` builds one from x, y, z."""
+    s, t = basis(n, vector)
+    local_v = vector(xp.dot(s, v), xp.dot(t, v), xp.maximum(xp.dot(n, v), 1e-6))
+    h = sample_visible_normal(local_v, alpha, u1, u2, vector)
+    local = 2 * xp.dot(local_v, h) * h - local_v
+    return xp.normalize(local[0] * s + local[1] * t + local[2] * n)

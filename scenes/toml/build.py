@@ -34,7 +34,7 @@ from lightmeter.scenes.shapes import forms
 from lightmeter.scenes.toml import entries
 from lightmeter.scenes.toml.placing import placement, unit
 
-COLOURED = ("base_color_texture", "emissive_texture")
+COLOURED = ("base_color_texture", "emissive_texture", "sheen_color_texture")
 """The textures whose colours are sRGB-encoded."""
 
 DEFAULT_MATERIAL = "default"
@@ -119,6 +119,7 @@ class Builder:
         for key, value in values.items():
             if isinstance(value, entries.TextureEntry):
                 values[key] = self.texture(value, key in COLOURED, f"{place}.{key}")
+        values["anisotropy_rotation"] = float(np.radians(entry.anisotropy_rotation))
         return Material(name=name, **values)
 
     def texture(self, entry: entries.TextureEntry, srgb: bool, place: str) -> Texture:

@@ -106,6 +106,19 @@ class MaterialEntry(Strict):
     alpha_mode: Literal["opaque", "mask"] = "opaque"
     alpha_cutoff: Fraction = 0.5
     double_sided: Flag = False
+    clearcoat: Fraction = Field(0.0, description="Clear coat of index 1.5 (KHR_materials_clearcoat); 0: none.")
+    clearcoat_roughness: Fraction = 0.0
+    clearcoat_texture: TextureKey | None = Field(None, description="Factor in red.")
+    clearcoat_roughness_texture: TextureKey | None = Field(None, description="Factor in green.")
+    clearcoat_normal_texture: TextureKey | None = None
+    clearcoat_normal_scale: Number = 1.0
+    anisotropy: Fraction = Field(0.0, description="Strength (KHR_materials_anisotropy); 0: alike in all directions.")
+    anisotropy_rotation: Number = Field(0.0, description="Of the grain, from the tangent to the bitangent, degrees.")
+    anisotropy_texture: TextureKey | None = Field(None, description="Direction in red and green, factor in blue.")
+    sheen_color: Reflectance = Field((0.0, 0.0, 0.0), description="Sheen of cloth (KHR_materials_sheen); 0: none.")
+    sheen_roughness: Fraction = 0.0
+    sheen_color_texture: TextureKey | None = None
+    sheen_roughness_texture: TextureKey | None = Field(None, description="Factor in alpha.")
 
 
 class CameraEntry(Strict):

@@ -75,6 +75,19 @@ def everything() -> Scene:
         alpha_mode="mask",
         alpha_cutoff=0.3,
         double_sided=True,
+        clearcoat=0.9,
+        clearcoat_roughness=1 / 7,
+        clearcoat_texture=Texture(rgb, offset=(0.5, 0.25)),
+        clearcoat_roughness_texture=Texture(grey, rotation=0.1),
+        clearcoat_normal_texture=Texture(rgb, wrap_u="mirror"),
+        clearcoat_normal_scale=0.3,
+        anisotropy=1 / 3,
+        anisotropy_rotation=0.7,
+        anisotropy_texture=Texture(rgb, wrap_v="clamp"),
+        sheen_color=(0.2, 1 / 3, 0.0),
+        sheen_roughness=0.6,
+        sheen_color_texture=Texture(rgb, True),
+        sheen_roughness_texture=Texture(rgba),
     )
     bump = with_tangents(shapes.sphere(0.5, segments=8))
     bump = replace(bump, texcoords=(*bump.texcoords, bump.texcoords[0] * 2))

@@ -1,13 +1,12 @@
 """Effects at points that were not drawn: the G-buffer is given them."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import Material, Texture
-from lightmeter.scenes.points import SurfacePoints
 
 from .small_scenes import LAMP, facing, image, renderer, scene_of
 
@@ -42,7 +41,7 @@ def test_other_parameters_are_used(device):
 def test_nothing_is_seen_where_no_point_is(device):
     there = renderer(device, TEXTURED)
     points = there.capture().points
-    nowhere = SurfacePoints(**{f.name: getattr(points, f.name).copy() for f in fields(SurfacePoints)})
+    nowhere = points.each(np.copy)
     nowhere.shape[:, :16] = -1
     found = there.shade(nowhere)
     assert (found.direct[0][:, :16] == 0).all()

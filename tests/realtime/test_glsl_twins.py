@@ -41,6 +41,7 @@ NOT_TWINNED = {
         "pack_normal",
         "unpack_normal",
     },
+    "constant_ambient.glsl": {"surface_albedo"},  # hands the surface on: test_material_layers.py
     "punctual.glsl": {"received_at"},  # reads the light: test_direct_control.py
     "compensation.glsl": {"single_scattering_albedo", "uncompensated", "turquin", "kulla_conty"},  # read the table, or
     # choose whether to: test_shading_models.py

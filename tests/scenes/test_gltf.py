@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.framing import CAMERA_NOTE, LIGHTS_NOTE
 from lightmeter.scenes.load import load
 from lightmeter.scenes.model import DirectionalLight, Material, PointLight, Scene, SpotLight
@@ -299,13 +300,32 @@ def test_blended_shapes_are_left_out_of_both_sides_and_named(tmp_path):
 
 def test_what_is_not_read_is_listed(tmp_path):
     writer = Writer()
-    coat = {"extensions": {"KHR_materials_clearcoat": {}, "KHR_materials_specular": {"specularColorFactor": [1, 0, 0]}}}
+    coat = {
+        "extensions": {"KHR_materials_iridescence": {}, "KHR_materials_specular": {"specularColorFactor": [1, 0, 0]}}
+    }
     writer.node(mesh=writer.mesh(material=coat), skin=0)
     writer.content["meshes"][0]["primitives"][0]["targets"] = [{}]
     writer.content |= {"animations": [{}], "skins": [{"joints": [0]}], "extensionsUsed": ["EXT_unheard_of"]}
     notes = " | ".join(one(writer, tmp_path).notes)
-    for word in ("clearcoat", "specularColorFactor", "morph", "animations", "skins", "EXT_unheard_of"):
+    for word in ("iridescence", "specularColorFactor", "morph", "animations", "skins", "EXT_unheard_of"):
         assert word in notes
+
+
+def test_a_clear_coat_is_read_and_one_of_factor_0_is_none(tmp_path):
+    def coated(**coat):
+        writer = Writer()
+        material = {"extensions": {"KHR_materials_clearcoat": coat}, "emissiveFactor": [0.5] * 3}
+        writer.node(mesh=writer.mesh(material=material))
+        return one(writer, tmp_path)
+
+    scene = coated(clearcoatFactor=0.75, clearcoatRoughnessFactor=0.25)
+    material = scene.shapes[0].material
+    assert (material.clearcoat, material.clearcoat_roughness, material.left_out) == (0.75, 0.25, ())
+    assert any("does not darken its emission" in note for note in scene.notes)
+    scene = coated(clearcoatRoughnessFactor=0.25, clearcoatTexture={"index": 99})
+    assert not scene.shapes[0].material.layers and not any("darken" in note for note in scene.notes)
+    with pytest.raises(SceneError, match="clearcoatFactor"):
+        coated(clearcoatFactor=1.5)
 
 
 def test_an_unsupported_texture_format_is_listed(tmp_path):

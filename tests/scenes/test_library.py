@@ -23,6 +23,7 @@ NAMES = (
     "grid-sun",
     "lattice",
     "layers",
+    "material-layers",
     "metal-rough-grid",
     "mirrors",
     "penumbra",

@@ -74,6 +74,13 @@ def test_the_cameras():
     assert second.camera.ymag == 1 and second.camera.yfov is None
 
 
-def test_the_clear_coat_is_listed():
+def test_the_clear_coats_are_read():
     scene = sample("ClearCoatTest/ClearCoatTest.gltf")
-    assert any("KHR_materials_clearcoat" in note and "left out" in note for note in scene.notes)
+    assert not any("clearcoat" in note for note in scene.notes)
+    coated = {s.material.name: s.material for s in scene.shapes if s.material.clearcoat > 0}
+    assert len(coated) == 6 and all(material.clearcoat == 1 and not material.left_out for material in coated.values())
+    found = {name: sorted(material.textures) for name, material in coated.items()}
+    assert found["Simple_Coated"] == [] and found["Partial_Coated"] == ["clearcoat"]
+    assert found["RoughVariations_Coated"] == ["clearcoat_roughness"] and found["BaseNorm_Coated"] == ["normal"]
+    assert found["CoatNorm_Coated"] == ["clearcoat_normal"]
+    assert found["SharedNorm_Coated"] == ["clearcoat_normal", "normal"]

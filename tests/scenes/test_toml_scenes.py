@@ -137,6 +137,9 @@ def test_materials_and_textures(tmp_path):
         offset = [0.5, 0]
         rotation = 90
         scale = [2, 3]
+        [materials.lacquer]
+        clearcoat = 0.5
+        clearcoat_roughness_texture = "textures/a.png"
         """
         + BALL
         + 'material = "tile"',

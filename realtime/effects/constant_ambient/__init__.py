@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from lightmeter.scenes.emitters import enclosure, flux, surface_area
+from lightmeter.scenes.layers import COAT, SHEEN
 from lightmeter.scenes.model import Light, Scene
 
 from ...effect import Effect, Knob, Knobs
@@ -40,6 +41,6 @@ EFFECT = Effect(
             sweep=(0.0, 0.25, 0.5, 1.0, 2.0),
         ),
     ),
-    channels=("position", "normal", "roughness", "base_color", "metallic", "specular"),
+    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT, *SHEEN),
     uniforms=uniforms,
 )

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.layers import COAT, GRAIN, SHEEN
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.optics.conductors import METALS
 
@@ -29,12 +30,13 @@ def measured_metal(knobs: Knobs) -> bool:
 
 
 def defines(knobs: Knobs) -> dict[str, object]:
-    """The GLSL functions that stand for the parts."""
+    """The GLSL functions that stand for the parts; a grain stretches none but the material's own lobe."""
     return {
         "DISTRIBUTION": DISTRIBUTIONS[str(knobs["distribution"])],
         "MASKING": MASKINGS[str(knobs["masking"])],
         "FRESNEL": f"fresnel_{'metal' if measured_metal(knobs) else knobs['fresnel']}",
         "COMPENSATION": COMPENSATIONS[str(knobs["compensation"])],
+        "TAKES_GRAIN": (knobs["distribution"], knobs["masking"]) == ("ggx", "smith_correlated"),
     }
 
 
@@ -115,7 +117,7 @@ EFFECT = Effect(
             sweep=tuple(COMPENSATIONS),
         ),
     ),
-    channels=("position", "normal", "roughness", "base_color", "metallic", "specular"),
+    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT, *GRAIN, *SHEEN),
     lights=punctual.punctual,
     uniforms=uniforms,
     defines=defines,

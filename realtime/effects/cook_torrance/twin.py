@@ -1,15 +1,18 @@
 """Float64 twins of cook_torrance's GLSL: the parts are those of `scenes/optics`."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
-from lightmeter.scenes.optics import fresnel, material, microfacet
+from lightmeter.scenes.optics import anisotropy, fresnel, material, microfacet
 from lightmeter.scenes.optics.conductors import rgb_index
 
 from ...effect import Knobs
 from ...shared_twins import (
+    GRAIN_LOBE_ROUNDINGS,
     MATERIAL_AND_DIRECTIONS,
+    across_normal,
     alpha,
     any_point,
     brdf_signs,
@@ -17,6 +20,7 @@ from ...shared_twins import (
     cosine,
     near_the_mirror,
     point,
+    towards,
     unit,
     unit_length,
 )
@@ -131,6 +135,27 @@ def model(knobs: Knobs) -> Callable[..., np.ndarray]:
         return np.where((n_dot_v > 0) & (n_dot_l > 0), value, 0.0)
 
     return reflected
+
+
+def brushed(base_color, metallic, roughness, specular, strength, grain, n, v, l):  # noqa: E741 (l: light)
+    """The material with a grain, under the effect's own knobs."""
+    there = replace(point(base_color, metallic, roughness, specular), grain=anisotropy.Grain(strength, grain))
+    return material.evaluate(there, n, v, l)
+
+
+def weighed(gloss, v_dot_h, base_color, metallic, _roughness, specular, _n_dot_v, n_dot_l):
+    """A gloss over the base, under the effect's own knobs."""
+    there = any_point(base_color=base_color, metallic=metallic, specular=specular)
+    above = fresnel_schlick(v_dot_h, base_color, 0 * metallic, specular)
+    lobe = fresnel_schlick(v_dot_h, base_color, metallic, specular) * gloss
+    return ((1 - above) * there.diffuse / np.pi + lobe) * n_dot_l
+
+
+def with_grain(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """Directions as `near_the_mirror`, the grain across the normal."""
+    *parameters, strength, grain, n, v, light = inputs
+    *parameters, n, v, light = near_the_mirror(rng, [*parameters, n, v, light])
+    return [*parameters, strength, across_normal(grain, n), n, v, light]
 
 
 def whole(roundings: float, **given) -> Twin:
@@ -337,6 +362,34 @@ TWINS = (
         why="F̄ (1 + 3), squared, 1 − Ē, 1 − F̄(1 − Ē), the division; the others' products and division",
         cancels=1.0,
         guards=("1e-6",),
+    ),
+    Twin(
+        "cook_torrance.glsl",
+        "weighed",
+        "vec3",
+        (
+            Argument("gloss", "float", logarithmic(1e-4, 1e4)),
+            Argument("v_dot_h", "float", uniform(0.0, 1.0), (0.0, 1.0)),
+            color("base_color"),
+            *(unit(name) for name in ("metallic", "roughness", "specular")),
+            *(Argument(name, "float", uniform(0.0, 1.0), (1e-7, 1.0)) for name in ("n_dot_v", "n_dot_l")),
+        ),
+        weighed,
+        roundings=7 + 5 + 6,
+        why="F (7) with F0 (5); 1 − F, c_diff, 1/π, its product with D·V, the sum, n·l",
+        defines=defines(EFFECT.settings({})),
+    ),
+    Twin(
+        "cook_torrance.glsl",
+        "brushed",
+        "vec3",
+        (*MATERIAL_AND_DIRECTIONS[:4], unit("strength"), towards("grain"), *MATERIAL_AND_DIRECTIONS[4:]),
+        brushed,
+        roundings=GRAIN_LOBE_ROUNDINGS + 7 + 5 + 6,
+        why="the lobe, F (7) with F0 (5), and in the sum six more, as gltf_brdf",
+        arrange=with_grain,
+        signs=lambda *inputs: brdf_signs(*inputs[:4], *inputs[6:]),
+        defines=defines(EFFECT.settings({})) | {"LAYER_GRAIN": True},
     ),
     whole(0),
     whole(15, distribution="blinn", masking="implicit", fresnel="none"),
