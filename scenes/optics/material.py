@@ -60,9 +60,14 @@ def evaluate(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # no
     d = microfacet.d_ggx(n_dot_h, sin2_h, point.alpha)
     visible = microfacet.v_smith_ggx_correlated(xp.maximum(n_dot_v, 1e-7), xp.maximum(n_dot_l, 1e-7), point.alpha)
     fresnel = microfacet.f_schlick(v_dot_h, point.f0, point.f90)
-    above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
-    value = ((1 - above) * point.diffuse * (1 / PI) + fresnel * (d * visible)) * n_dot_l
+    value = (lambert(point, v_dot_h) + fresnel * (d * visible)) * n_dot_l
     return xp.where(lit, value, 0 * value)
+
+
+def lambert(point: MaterialPoint, v_dot_h: Array) -> Array:
+    """f of the Lambert base, 1/sr: what the dielectric's facet between v and l lets through, (1 − F_d)·c_diff/π."""
+    above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
+    return (1 - above) * point.diffuse * (1 / PI)
 
 
 def specular_probability(point: MaterialPoint, n_dot_v: Array) -> Array:
