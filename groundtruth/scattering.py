@@ -1,11 +1,14 @@
-"""Which truth: what a rough surface does with light that its facets send to other facets."""
+"""Which truth: what a rough surface does with light that its facets send to other facets.
+
+With one bounce it is lost, and rough metals are dark; with all bounces it goes on until it leaves the microsurface.
+"""
 
 from lightmeter.scenes.errors import nearest
 
 SINGLE, MULTISCATTER = "single", "multiscatter"
 SCATTERINGS = {
-    SINGLE: "glTF's definition: light bounces once on the microsurface, and what meets another facet is lost",
-    MULTISCATTER: "light bounces on the microsurface until it leaves it (Heitz et al. 2016)",
+    SINGLE: "one bounce on the microsurface, glTF's definition",
+    MULTISCATTER: "all bounces on the microsurface, Heitz et al. 2016",
 }
 
 

@@ -8,12 +8,14 @@ import numpy as np
 
 from lightmeter.attribution import Shares, attribute
 from lightmeter.candidates.candidate import Candidate
+from lightmeter.candidates.definitions import apart
 from lightmeter.candidates.gathering import Gathered, gather
 from lightmeter.candidates.side_by_side import SideBySide, compare_candidates
 from lightmeter.closure import closure_batches
 from lightmeter.device import fingerprint
 from lightmeter.display_shares import attribute_display
 from lightmeter.families import Families, composition
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.finite import find_non_finite
@@ -29,6 +31,7 @@ from lightmeter.realtime.graph import Choice, Plan, compile_plan
 from lightmeter.realtime.renderer import Frame, Renderer
 from lightmeter.realtime.timing import Time, Times
 from lightmeter.reports import results as outcome
+from lightmeter.reports.significant import show_measurement
 from lightmeter.scenes.model import Scene
 from lightmeter.shadow_errors import shadow_errors
 from lightmeter.sides import MOST_SAMPLES, FramePoints, Sides, display_sides, effect_sides
@@ -92,6 +95,8 @@ def compare(
     choice: Choice | None = None,
     store: Store | None = None,
     folder: Path | None = None,
+    scattering: str = SINGLE,
+    against: str | None = None,
     shares: bool = True,
     report: Report = silent,
     say: Callable[[str], None] = lambda _message: None,
@@ -105,6 +110,8 @@ def compare(
         seed: names the random numbers of the truth.
         store: where batches and oracles are kept; None: nowhere.
         folder: a reference made by `lightmeter reference`, taken as it is.
+        scattering: which truth, see `groundtruth.scattering`.
+        against: another truth that candidates are held against too; its reference is rendered.
         shares: whether the frame's error is shared out among the effects.
         report: told of progress.
         say: told of what the user should know.
@@ -126,7 +133,8 @@ def compare(
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)
-    truth = Truth(scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
+    how = {"store": store, "report": report, "say": say}
+    truth = Truth(scene, size, budget or Budget(), seed, folder=folder, scattering=scattering, **how)
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
@@ -149,13 +157,23 @@ def compare(
     measured = answers(questions, display, report)
     frame_metrics = measured[_FRAME] | measured[_COSTLY]
     ours = frame_metrics, _timing(times.frame), times.method
-    others = compare_candidates(gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report)
+    other, between = None, ()
+    if against is not None and gathered.handed:
+        other = Truth(scene, size, budget or Budget(), seed, scattering=against, **how)
+        between = _between(truth, other, display)
+    others = compare_candidates(
+        gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report, other
+    )
     results = outcome.Results(
         scene=scene.name,
         size=size,
         device=fingerprint(device.renderer, device.version),
         reference=outcome.Reference(
-            reference.spp * truth.batches, truth.batches, reference.seconds, reference.reused == truth.batches
+            reference.spp * truth.batches,
+            truth.batches,
+            reference.seconds,
+            reference.reused == truth.batches,
+            scattering,
         ),
         frame=outcome.Frame(frame_metrics, _timing(times.frame)),
         effects=tuple(
@@ -172,7 +190,7 @@ def compare(
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
-        notes=scene.notes + _notes(renderer, times) + few_carry(frame.radiance, reference.batches),
+        notes=scene.notes + _notes(renderer, times) + between + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,
@@ -234,6 +252,14 @@ def few_carry(frame: np.ndarray, reference: Sequence[np.ndarray]) -> tuple[str, 
         f"Few samples carry the reference's noise (in effect {count:.0f}): fireflies, and others may not have been "
         "drawn yet. Intervals may be too short; more samples per pixel help.",
     )
+
+
+def _between(one: Truth, other: Truth, display: Callable[[np.ndarray], np.ndarray]) -> tuple[str, ...]:
+    """A note of how far two truths are apart."""
+    found = apart(one.reference.batches, other.reference.batches, display)
+    if not found.low:
+        return (f"The truths {one.scattering} and {other.scattering} cannot be told apart in this picture.",)
+    return (f"The truths {one.scattering} and {other.scattering} are {show_measurement(found)} RMSE apart.",)
 
 
 def _notes(renderer: Renderer, times: Times) -> tuple[str, ...]:

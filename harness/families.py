@@ -16,7 +16,6 @@ from lightmeter.groundtruth.oracles import coverage
 from lightmeter.groundtruth.store import Series
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.renderer import Capture, Renderer
-from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import MOST_SAMPLES, FramePoints
 from lightmeter.stacking import at_sample, mean_samples, stack_points
@@ -86,7 +85,7 @@ class Families:
             points, captures = at.exact_points, _shaded(self._renderer, at.exact_points)
         family = "exact material" if material_exact else "frame"
         batches = [truth.batch(points, batch, family, at.spp) for batch in range(truth.batches)]
-        layers = layers_at(self._slots, points, captures, batches, truth.scene)
+        layers = layers_at(self._slots, points, captures, batches, truth)
         if material_exact:
             self.layers(())  # whose shift is this one's too
         else:
@@ -109,7 +108,7 @@ def layers_at(
     points: SurfacePoints,
     captures: Sequence[Capture],
     batches: Sequence[ExactBatch],
-    scene: Scene,
+    truth: Truth,
 ) -> Layers:
     """The layers at some points; what needs no oracle is the same for all batches.
 
@@ -119,7 +118,7 @@ def layers_at(
     ratios = exact_ratios(batches)
     images = []
     for slot in slots:
-        many = [batches if _is_noisy(slot, which, scene) else batches[:1] for which in slot.sets]
+        many = [batches if _is_noisy(slot, which, truth) else batches[:1] for which in slot.sets]
         images.append(
             tuple(
                 np.stack([slot_image(slot, which, captures, batch, ratios) for batch in those])
@@ -134,9 +133,9 @@ def composition(layers: Layers, exact: Collection[str]) -> np.ndarray:
     return sum(layers.parts(exact), start=np.zeros((1, 1, 1, 3)))
 
 
-def _is_noisy(slot: Slot, which: int, scene: Scene) -> bool:
+def _is_noisy(slot: Slot, which: int, truth: Truth) -> bool:
     """Whether a slot's image differs from batch to batch: where an exact radiance comes from a Monte Carlo oracle."""
-    closed_form = slot.term == "direct" and not any(isinstance(scene.all_lights[i], AreaLight) for i in slot.lights)
+    closed_form = slot.term == "direct" and not any(truth.is_sampled(light) for light in slot.lights)
     return bool(which & 1) and not closed_form
 
 
@@ -174,6 +173,7 @@ def offset_layers(
         truth.size,
         truth.reference.spp,
         truth.seed,
+        truth.scattering,
         samples=(samples, emission_spp, spp),
         material_exact=material_exact,
         slots=[(slot.term, slot.players, slot.lights) for slot in slots],

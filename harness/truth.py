@@ -11,6 +11,7 @@ import numpy as np
 from lightmeter.groundtruth.batches import Progress, Reference, reference, reference_in_time
 from lightmeter.groundtruth.content import points_key
 from lightmeter.groundtruth.recall import recall
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
@@ -66,6 +67,7 @@ class Truth:
     Args:
         store: where batches and oracles are kept; None: nowhere.
         folder: a reference written by `lightmeter reference`, taken in place of rendering one.
+        scattering: which truth, see `groundtruth.scattering`.
         report: told of progress.
         say: told, in a sentence, of what the user should know (a damaged file, a reference of another version).
     """
@@ -79,11 +81,12 @@ class Truth:
         *,
         store: Store | None = None,
         folder: Path | None = None,
+        scattering: str = SINGLE,
         report: Report = silent,
         say: Callable[[str], None] = lambda _message: None,
     ) -> None:
         self.scene, self.size, self.budget, self.seed, self.store = scene, size, budget, seed, store
-        self.missing = missing_terms(scene)
+        self.scattering, self.missing = scattering, missing_terms(scene)
         self._folder, self._report, self._say = folder, report, say
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
         self._batches: WeakKeyDictionary[SurfacePoints, dict] = WeakKeyDictionary()
@@ -94,7 +97,7 @@ class Truth:
     def _world(self):
         from lightmeter.groundtruth.world import World
 
-        return World.of(self.scene)
+        return World.of(self.scene, self.scattering)
 
     @property
     def batches(self) -> int:
@@ -111,8 +114,8 @@ class Truth:
         if self._folder is not None:
             from lightmeter.groundtruth.folder import load
 
-            return load(self._folder, self.scene, self.size, self._say)
-        common = {"seed": self.seed, "store": self.store, "progress": progress}
+            return load(self._folder, self.scene, self.size, self._say, self.scattering)
+        common = {"seed": self.seed, "store": self.store, "scattering": self.scattering, "progress": progress}
         if self.budget.seconds is not None:
             return reference_in_time(self.scene, self.size, seconds=self.budget.seconds, **common)
         spp = self.budget.spp_per_batch
@@ -122,7 +125,7 @@ class Truth:
         """(H, W, 3): one batch of the reference by its number, without the others."""
         from lightmeter.groundtruth.batches import one_batch
 
-        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world}
+        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world, "scattering": self.scattering}
         return one_batch(self.scene, self.size, spp, batch, **options)
 
     def exact_material(self, points: SurfacePoints) -> SurfacePoints:
@@ -203,9 +206,13 @@ class Truth:
             rest["indirect"] = self._oracle("indirect", points, **options)
         return ExactBatch(points.emission, direct, shadowed, **rest)
 
+    def is_sampled(self, light: int) -> bool:
+        """Whether a light's radiance at a point has no closed form, so that every batch is another."""
+        return isinstance(self.scene.all_lights[light], AreaLight) or self.scattering != SINGLE
+
     def _light(self, points: SurfacePoints, light: int, options: dict) -> Ratio:
-        """A and B of a light. Punctual lights are exact: every batch is the same, and asked for once."""
-        if isinstance(self.scene.all_lights[light], AreaLight):
+        """A and B of a light. Punctual lights have a closed form in glTF's truth: one batch is all, asked for once."""
+        if self.is_sampled(light):
             return self._ratio(points, light, options)
         known = self._punctual.setdefault(points, {})
         if light not in known:
@@ -241,6 +248,7 @@ class Truth:
             lambda: self._world,
             light=light,
             key=self._key(points) if keep else "",
+            scattering=self.scattering,
             **options,
         )
         return image.reshape(*image.shape[:-3], samples, height, width, 3)

@@ -1,10 +1,12 @@
 """All candidates of a comparison: measured over the same pixels as our own frame, with their layers and pictures."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lightmeter.candidates.candidate import OWN
+from lightmeter.candidates.definitions import against_other, follows
 from lightmeter.candidates.gathering import Gathered
 from lightmeter.candidates.judging import Judged, count, filled, judge, own_result
 from lightmeter.candidates.layer_buffers import Centres
@@ -63,6 +65,7 @@ def compare_candidates(
     names: Sequence[str],
     shares: bool,
     report: Report,
+    other: Truth | None = None,
 ) -> SideBySide:
     """Measure every candidate beside our own frame.
 
@@ -72,6 +75,7 @@ def compare_candidates(
         display: our frame's display transform.
         names: the metrics of a frame.
         shares: whether errors are shared out among layers, where they make up the frame.
+        other: another truth of the same scene and size that every engine is held against too.
 
     Raises:
         UsageError: a candidate's layers or masks do not fit the scene.
@@ -86,6 +90,11 @@ def compare_candidates(
     if mask is not None:
         sides = Sides([filled(frame, mask, reference)], reference)
         questions[""] = Question(tuple(names), sides, bounds=True, mask=mask)
+    elsewhere = {}
+    if other is not None:
+        frames = {one.name: questions[one.name] for one in judged}
+        frames[OWN] = questions.get("", Question(tuple(names), Sides([frame], reference), bounds=True))
+        elsewhere = against_other(frames, other.reference.batches, display, report)
     layers = {(one.name, name): sides for one in judged for name, sides in layer_sides(one, centres)}
     questions |= {f"{engine} {name}": layer_question(sides, mask) for (engine, name), sides in layers.items()}
     measured = answers(questions, display, report)
@@ -107,7 +116,17 @@ def compare_candidates(
                 (why_not,) if why_not else (),
             )
         )
+    if other is not None:
+        found = [_by_truth(one, truth.scattering, other.scattering, elsewhere[one.name]) for one in found]
     return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)))
+
+
+def _by_truth(
+    engine: outcome.Candidate, usual: str, other: str, elsewhere: Mapping[str, Measurement]
+) -> outcome.Candidate:
+    """An engine's result with its errors against both truths, and the one that it follows."""
+    truths = {usual: {name: engine.metrics[name] for name in elsewhere}, other: elsewhere}
+    return replace(engine, truths=truths, follows=follows(truths))
 
 
 def _exhibits(

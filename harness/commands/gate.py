@@ -11,6 +11,7 @@ from pathlib import Path
 from lightmeter import options
 from lightmeter.candidates import words
 from lightmeter.failures import UsageError
+from lightmeter.groundtruth.scattering import SCATTERINGS
 from lightmeter.progress import progress_bar
 
 CONFIG = "lightmeter.toml"
@@ -25,6 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--confidence", type=options.number, metavar="C", help="that no verdict is wrong (default: the file's or 0.999)"
     )
+    parser.add_argument("--truth", choices=tuple(SCATTERINGS), help="in place of the truth that the limits name")
     parser.add_argument("--update", action="store_true", help="write the baseline that regressions are held against")
     parser.add_argument("--strict", action="store_true", help="exit with 3 where a limit is undecided")
     parser.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
@@ -55,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     confidence = rules.confidence if args.confidence is None else args.confidence
     seconds = rules.seconds if args.seconds is None else args.seconds
     limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
+    if args.truth:
+        limits = tuple(replace(one, conditions=replace(one.conditions, scattering=args.truth)) for one in limits)
     store = None if args.no_store else Store(say=options.say)
     pairs = plan_cases(limits, config, args.scenes, store, candidates)
     if args.update:
@@ -164,6 +168,7 @@ def _write_reports(folder: Path, trials) -> None:
             c.seed,
             choice_of(c),
             store=case.store,
+            scattering=c.scattering,
             say=options.say,
             candidates=[case.candidates[name] for name in names if case.gave(name)],
             candidates_folder=place / "candidates",
