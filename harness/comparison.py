@@ -8,7 +8,6 @@ import numpy as np
 
 from lightmeter.attribution import Shares, attribute
 from lightmeter.candidates.candidate import Candidate
-from lightmeter.candidates.definitions import apart
 from lightmeter.candidates.gathering import Gathered, gather
 from lightmeter.candidates.side_by_side import SideBySide, compare_candidates
 from lightmeter.closure import closure_batches
@@ -31,7 +30,6 @@ from lightmeter.realtime.graph import Choice, Plan, compile_plan
 from lightmeter.realtime.renderer import Frame, Renderer
 from lightmeter.realtime.timing import Time, Times
 from lightmeter.reports import results as outcome
-from lightmeter.reports.significant import show_measurement
 from lightmeter.scenes.model import Scene
 from lightmeter.shadow_errors import shadow_errors
 from lightmeter.sides import MOST_SAMPLES, FramePoints, Sides, display_sides, effect_sides
@@ -157,10 +155,7 @@ def compare(
     measured = answers(questions, display, report)
     frame_metrics = measured[_FRAME] | measured[_COSTLY]
     ours = frame_metrics, _timing(times.frame), times.method
-    other, between = None, ()
-    if against is not None and gathered.handed:
-        other = Truth(scene, size, budget or Budget(), seed, scattering=against, **how)
-        between = _between(truth, other, display)
+    other = Truth(scene, size, budget or Budget(), seed, scattering=against, **how) if against else None
     others = compare_candidates(
         gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report, other
     )
@@ -190,7 +185,7 @@ def compare(
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
-        notes=scene.notes + _notes(renderer, times) + between + few_carry(frame.radiance, reference.batches),
+        notes=scene.notes + _notes(renderer, times) + others.notes + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,
@@ -252,14 +247,6 @@ def few_carry(frame: np.ndarray, reference: Sequence[np.ndarray]) -> tuple[str, 
         f"Few samples carry the reference's noise (in effect {count:.0f}): fireflies, and others may not have been "
         "drawn yet. Intervals may be too short; more samples per pixel help.",
     )
-
-
-def _between(one: Truth, other: Truth, display: Callable[[np.ndarray], np.ndarray]) -> tuple[str, ...]:
-    """A note of how far two truths are apart."""
-    found = apart(one.reference.batches, other.reference.batches, display)
-    if not found.low:
-        return (f"The truths {one.scattering} and {other.scattering} cannot be told apart in this picture.",)
-    return (f"The truths {one.scattering} and {other.scattering} are {show_measurement(found)} RMSE apart.",)
 
 
 def _notes(renderer: Renderer, times: Times) -> tuple[str, ...]:

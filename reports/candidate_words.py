@@ -90,10 +90,12 @@ def definition_words(candidate: Candidate) -> str:
     """Its errors against both truths and which of them it follows; "" where there was but one."""
     if not candidate.truths:
         return ""
-    metric = next(iter(next(iter(candidate.truths.values()))))
-    errors = [f"{show_measurement(found[metric])} against {truth}" for truth, found in candidate.truths.items()]
     verdict = f"follows {candidate.follows}" if candidate.follows else "cannot tell which it follows"
-    return f"{label(metric)} {', '.join(errors)}: {verdict}"
+    errors = []
+    for metric in next(iter(candidate.truths.values())):
+        each = [f"{show_measurement(found[metric])} against {truth}" for truth, found in candidate.truths.items()]
+        errors.append(f"{label(metric)} {', '.join(each)}")
+    return f"{verdict}: {'; '.join(errors)}"
 
 
 def not_finite(candidate: Candidate) -> str:

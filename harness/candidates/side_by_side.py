@@ -1,12 +1,12 @@
 """All candidates of a comparison: measured over the same pixels as our own frame, with their layers and pictures."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lightmeter.candidates.candidate import OWN
-from lightmeter.candidates.definitions import against_other, follows
+from lightmeter.candidates.definitions import against_each, apart_words, follows, told_apart
 from lightmeter.candidates.gathering import Gathered
 from lightmeter.candidates.judging import Judged, count, filled, judge, own_result
 from lightmeter.candidates.layer_buffers import Centres
@@ -49,10 +49,12 @@ class SideBySide:
     Attributes:
         results: ours first; empty where there is no candidate.
         exhibits: every candidate's frame, followed by its layers.
+        notes: what the reader should know of the comparison.
     """
 
     results: tuple[outcome.Candidate, ...] = ()
     exhibits: tuple[Exhibit, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def compare_candidates(
@@ -90,11 +92,6 @@ def compare_candidates(
     if mask is not None:
         sides = Sides([filled(frame, mask, reference)], reference)
         questions[""] = Question(tuple(names), sides, bounds=True, mask=mask)
-    elsewhere = {}
-    if other is not None:
-        frames = {one.name: questions[one.name] for one in judged}
-        frames[OWN] = questions.get("", Question(tuple(names), Sides([frame], reference), bounds=True))
-        elsewhere = against_other(frames, other.reference.batches, display, report)
     layers = {(one.name, name): sides for one in judged for name, sides in layer_sides(one, centres)}
     questions |= {f"{engine} {name}": layer_question(sides, mask) for (engine, name), sides in layers.items()}
     measured = answers(questions, display, report)
@@ -116,17 +113,16 @@ def compare_candidates(
                 (why_not,) if why_not else (),
             )
         )
+    notes = ()
     if other is not None:
-        found = [_by_truth(one, truth.scattering, other.scattering, elsewhere[one.name]) for one in found]
-    return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)))
-
-
-def _by_truth(
-    engine: outcome.Candidate, usual: str, other: str, elsewhere: Mapping[str, Measurement]
-) -> outcome.Candidate:
-    """An engine's result with its errors against both truths, and the one that it follows."""
-    truths = {usual: {name: engine.metrics[name] for name in elsewhere}, other: elsewhere}
-    return replace(engine, truths=truths, follows=follows(truths))
+        frames = {one.name: questions[one.name] for one in judged}
+        frames[OWN] = questions.get("", Question(tuple(names), Sides([frame], reference), bounds=True))
+        references = {each.scattering: each.reference.batches for each in (truth, other)}
+        where = told_apart(references)
+        truths = against_each(frames, references, where, display, report)
+        found = [replace(one, truths=truths[one.name], follows=follows(truths[one.name])) for one in found]
+        notes = (apart_words(references, where, display),)
+    return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)), notes)
 
 
 def _exhibits(

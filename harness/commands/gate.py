@@ -58,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
     seconds = rules.seconds if args.seconds is None else args.seconds
     limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
     if args.truth:
-        limits = tuple(replace(one, conditions=replace(one.conditions, scattering=args.truth)) for one in limits)
+        limits = tuple(_under(limit, args.truth) for limit in limits)
     store = None if args.no_store else Store(say=options.say)
     pairs = plan_cases(limits, config, args.scenes, store, candidates)
     if args.update:
@@ -101,6 +101,14 @@ def _on_candidates(rules, asked):
     if not limits:
         raise UsageError(f"{rules.limits[0].place}: none of the limits is on a frame, which is what a candidate has")
     return tuple(limits), tuple(known.values())
+
+
+def _under(limit, truth: str):
+    """The limit by another truth. Its name says so: what a baseline holds is of one truth."""
+    if limit.conditions.scattering == truth:
+        return limit
+    variant = ", ".join(part for part in (limit.variant, f"truth {truth}") if part)
+    return replace(limit, conditions=replace(limit.conditions, scattering=truth), variant=variant)
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

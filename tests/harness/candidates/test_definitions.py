@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lightmeter.candidates.candidate import Candidate
-from lightmeter.candidates.definitions import follows
+from lightmeter.candidates.definitions import follows, told_apart
 from lightmeter.comparison import compare
 from lightmeter.groundtruth.batch_file import write
 from lightmeter.metrics.measurement import Measurement
@@ -27,9 +27,21 @@ def test_only_intervals_that_are_apart_decide():
     assert follows({"single": {"rmse": Measurement(1)}, "multiscatter": measured(2, 4)}) == ""
 
 
-def test_a_display_image_is_judged_by_flip():
+def test_flip_decides_where_there_is_no_radiance_or_fireflies_leave_it_open():
     near, far = ({"flip": Measurement(x, x - 0.01, x + 0.01)} for x in (0.1, 0.2))
     assert follows({"single": far, "multiscatter": near}) == "multiscatter"
+    assert follows({"single": measured(0, 9) | far, "multiscatter": measured(0, 9) | near}) == "multiscatter"
+    assert follows({"single": measured(1, 2) | far, "multiscatter": measured(3, 4) | near}) == "single"
+
+
+def test_pixels_tell_truths_apart_beyond_their_noise_alone():
+    rng = np.random.default_rng(0)
+    one, other = (rng.normal(1, 0.1, (8, 40, 50, 3)) for _ in range(2))
+    other[:, :, :25] += 0.5
+    where = told_apart({"one": one, "other": other})
+    assert where[:, :25].all()
+    assert where[:, 25:].mean() < 0.02
+    assert not told_apart({"one": one, "other": one}).any()
 
 
 def test_both_needs_a_candidate(refused):
@@ -60,7 +72,7 @@ def test_path_traced_frames_follow_the_definition_that_they_were_made_by(rough, 
         "multiscatter": "multiscatter",
     }
     assert found.reference is not None and found.reference.truth == "single"
-    assert any("single and multiscatter are" in note and "apart" in note for note in found.notes)
-    assert "against multiscatter: follows multiscatter" in definition_words(found.candidates[2])
+    assert any("single and multiscatter can be told apart in" in note for note in found.notes)
+    assert definition_words(found.candidates[2]).startswith("follows multiscatter: RMSE ")
     again = from_json(to_json(found))
     assert [one.truths for one in again.candidates] == [one.truths for one in found.candidates]
