@@ -155,8 +155,9 @@ def _walk(point: MaterialPoint, view, noise: Noise, start_u, light):
         if light is not None:
             there, cosine = seen_from(facing, light, below)
             of_dielectric, of_metal = reflectances(cosine)
+            # 0 at the first facet, whose part has a closed form: `back` is not known before it.
             share = there * back / dr.maximum(there + back, 1e-20)
-            sent += dr.select(going & (count > 0), mix(dielectric * of_dielectric, metallic * of_metal) * share, 0)
+            sent += dr.select(going, mix(dielectric * of_dielectric, metallic * of_metal) * share, 0)
         u1 = dr.select(count == 0, start_u.x, generator.next_float32())
         u2 = dr.select(count == 0, start_u.y, generator.next_float32())
         facet = microfacet.sample_visible_normal(facing, alpha, u1, u2, mi.Vector3f)

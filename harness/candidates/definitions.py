@@ -76,9 +76,7 @@ def apart_words(references: References, where: np.ndarray, display: Display) -> 
     """How far two truths are apart in a picture, without what is their batches' noise, and in how many pixels."""
     one, other = references
     if not where.any():
-        return (
-            f"The truths {one} and {other} cannot be told apart in any pixel: no engine can be said to follow either."
-        )
+        return f"The truths {one} and {other} cannot be told apart in any pixel, nor which one an engine follows."
     sides = Sides(list(references[one]), list(references[other]))
     distance = show_measurement(answer(Question(("rmse",), sides, mask=where), display)["rmse"])
     return (
