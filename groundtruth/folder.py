@@ -9,6 +9,7 @@ from lightmeter.groundtruth.batch_file import DamagedFileError
 from lightmeter.groundtruth.batches import REFERENCE, Reference, batch_name, collect
 from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Series
+from lightmeter.scenes.errors import shown
 from lightmeter.scenes.model import Scene
 
 MANIFEST = "manifest.json"
@@ -79,8 +80,8 @@ def load(
     width, height = manifest["size"]
     if manifest["truth"] != scattering:
         raise ReferenceFolderError(
-            f"{folder / MANIFEST}: expected the truth {scattering!r}, got {manifest['truth']!r}"[:300]
-            + f"; pass the `--truth` that it was made with, or {again} --truth {scattering}"
+            f"{folder / MANIFEST}: expected the truth {scattering!r}, got {shown(manifest['truth'])}; "
+            f"pass the `--truth` that it was made with, or {again} --truth {scattering}"
         )
     if size is not None and (width, height) != tuple(size):
         raise ReferenceFolderError(
