@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lightmeter.groundtruth.scattering import SINGLE, check_scattering
 from lightmeter.groundtruth.store import Series, Store
 from lightmeter.groundtruth.variant import choose
 from lightmeter.scenes.model import Scene
@@ -32,6 +33,7 @@ class Reference:
         nonfinite: pixels of `batches` with a value that is not finite, over all batches.
         key: of the series.
         scene_key: of the scene.
+        scattering: which truth, see `scattering`.
     """
 
     batches: np.ndarray
@@ -42,6 +44,7 @@ class Reference:
     nonfinite: int
     key: str
     scene_key: str
+    scattering: str = SINGLE
 
     @property
     def mean(self) -> np.ndarray:
@@ -58,13 +61,13 @@ class Progress:
     reused: int
 
 
-def series(scene: Scene, size: tuple[int, int], spp: int, seed: int = 0) -> Series:
+def series(scene: Scene, size: tuple[int, int], spp: int, seed: int = 0, scattering: str = SINGLE) -> Series:
     """The series of a scene's reference.
 
     Raises:
         NoRendererError: no variant of Mitsuba can run here.
     """
-    return Series.of(REFERENCE, scene, size, spp, seed, variant=choose())
+    return Series.of(REFERENCE, scene, size, spp, seed, scattering, variant=choose())
 
 
 def batch_name(batch: int) -> str:
@@ -77,10 +80,14 @@ class Renderer:
 
     Args:
         world: the scene's world, where the caller has one.
+        scattering: which truth; the world's.
     """
 
-    def __init__(self, scene: Scene, size: tuple[int, int], seed: int = 0, world: object = None):
+    def __init__(
+        self, scene: Scene, size: tuple[int, int], seed: int = 0, world: object = None, scattering: str = SINGLE
+    ):
         self.scene, self.size, self.seed, self._world = scene, size, seed, world
+        self.scattering = scattering
 
     def __call__(self, spp: int, batch: int) -> np.ndarray:
         """One batch, (H, W, 3) float32."""
@@ -88,7 +95,7 @@ class Renderer:
         from lightmeter.groundtruth.world import World
 
         if self._world is None:
-            self._world = World.of(self.scene)
+            self._world = World.of(self.scene, self.scattering)
         return render_batch(self._world, self.size, spp, self.seed, batch)
 
 
@@ -101,6 +108,7 @@ def reference(
     seed: int = 0,
     store: Store | None = None,
     world: object = None,
+    scattering: str = SINGLE,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Reference:
     """The reference, `batches` × `spp` samples per pixel.
@@ -110,6 +118,7 @@ def reference(
         spp: samples per pixel of one batch.
         batches: how many, at least 2.
         store: where batches are looked for and kept; None: nowhere.
+        scattering: which truth, see `scattering`.
         progress: called before the first batch and after each.
 
     Raises:
@@ -117,7 +126,9 @@ def reference(
         NoRendererError: Mitsuba cannot run here.
     """
     _check(size, spp, batches)
-    wanted, renderer = series(scene, size, spp, seed), Renderer(scene, size, seed, world)
+    check_scattering(scattering, scene)
+    wanted = series(scene, size, spp, seed, scattering)
+    renderer = Renderer(scene, size, seed, world, scattering)
     images, seconds, reused = [], 0.0, 0
     progress(Progress(0, batches, 0))
     for batch in range(batches):
@@ -126,7 +137,7 @@ def reference(
         seconds += spent
         reused += known
         progress(Progress(batch + 1, batches, reused))
-    return collect(images, wanted, seconds, reused)
+    return collect(images, wanted, seconds, reused, scattering)
 
 
 def one_batch(
@@ -138,6 +149,7 @@ def one_batch(
     seed: int = 0,
     store: Store | None = None,
     world: Callable[[], object],
+    scattering: str = SINGLE,
 ) -> np.ndarray:
     """One batch of a scene's reference, (H, W, 3) float32, from the store where it is there.
 
@@ -150,9 +162,9 @@ def one_batch(
     """
 
     def render(spp: int, batch: int) -> np.ndarray:
-        return Renderer(scene, size, seed, world())(spp, batch)
+        return Renderer(scene, size, seed, world(), scattering)(spp, batch)
 
-    return _one(series(scene, size, spp, seed), render, batch, store)[0]
+    return _one(series(scene, size, spp, seed, scattering), render, batch, store)[0]
 
 
 def reference_in_time(
@@ -163,6 +175,7 @@ def reference_in_time(
     seed: int = 0,
     store: Store | None = None,
     world: object = None,
+    scattering: str = SINGLE,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Reference:
     """The reference that `seconds` of rendering buy: at least 8 batches, of a power of two samples each.
@@ -178,9 +191,10 @@ def reference_in_time(
     if not seconds > 0:
         raise ValueError(f"seconds must be above 0, got {seconds:g}")
     _check(size, 1, LEAST)
-    renderer = Renderer(scene, size, seed, world)
+    check_scattering(scattering, scene)
+    renderer = Renderer(scene, size, seed, world, scattering)
     spp = _affordable(renderer, seconds, store)
-    wanted = series(scene, size, spp, seed)
+    wanted = series(scene, size, spp, seed, scattering)
     images, spent, reused = [], 0.0, 0
     progress(Progress(0, LEAST, 0))
     while len(images) < LEAST or spent * (1 + 1 / len(images)) <= seconds:
@@ -190,14 +204,14 @@ def reference_in_time(
         reused += known
         expected = max(LEAST, len(images), int(seconds * len(images) / max(spent, 1e-9)))
         progress(Progress(len(images), expected, reused))
-    return collect(images, wanted, spent, reused)
+    return collect(images, wanted, spent, reused, scattering)
 
 
-def collect(images: list[np.ndarray], of: Series, seconds: float, reused: int) -> Reference:
+def collect(images: list[np.ndarray], of: Series, seconds: float, reused: int, scattering: str = SINGLE) -> Reference:
     """A reference from its batches; values that are not finite are counted."""
     stack = np.stack(images)
     nonfinite = int(np.count_nonzero(~np.isfinite(stack).all(axis=-1)))
-    return Reference(stack, of.spp, of.seed, seconds, reused, nonfinite, of.key, of.scene_key)
+    return Reference(stack, of.spp, of.seed, seconds, reused, nonfinite, of.key, of.scene_key, scattering)
 
 
 def _one(
@@ -218,7 +232,8 @@ def _one(
 
 def _affordable(renderer: Renderer, seconds: float, store: Store | None) -> int:
     """The power of two samples per batch that fits 8 batches into the time."""
-    trial = Series.of("trial", renderer.scene, (1, 1), 0, renderer.seed, image=renderer.size, seconds=f"{seconds:g}")
+    told = {"image": renderer.size, "seconds": f"{seconds:g}"}
+    trial = Series.of("trial", renderer.scene, (1, 1), 0, renderer.seed, renderer.scattering, **told)
     found = store.read(trial, "spp") if store is not None else None
     if found is not None:
         return int(found[0][""].ravel()[0])

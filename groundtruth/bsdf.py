@@ -80,27 +80,33 @@ class SceneBSDF(mi.BSDF):
         """The parameters, with the layers' normals on the viewer's side."""
         return point.material.turned((mi.Frame3f.cos_theta(si.wi) < 0) & point.double_sided)
 
+    def _carried(self, si, point, scatters, wo, active):
+        """Whether transport carries light from `wo` at all."""
+        carried = active & scatters & (mi.Frame3f.cos_theta(si.wi) * mi.Frame3f.cos_theta(wo) > 0)
+        return carried & point.present if self.masked else carried
+
     def _eval_pdf(self, si, point, material, frame, wo, active):
         normal, view, scatters = frame
         light = si.to_world(wo)
-        carried = active & scatters & (mi.Frame3f.cos_theta(si.wi) * mi.Frame3f.cos_theta(wo) > 0)
-        if self.masked:
-            carried &= point.present
+        carried = self._carried(si, point, scatters, wo, active)
         value = optics.evaluate(material, normal, view, light)
         density = optics.pdf(material, normal, view, light)
         return dr.select(carried, value, 0), dr.select(carried, density, 0)
 
-    def _sample(self, si, point, material, frame, sample1, sample2, active):
+    def _draw(self, si, point, material, frame, sample1, sample2, active):
+        """A direction, its density and its weight."""
         normal, view, _ = frame
         light = optics.sample(material, normal, view, (sample1, sample2.x, sample2.y), mi.Vector3f)
         wo = si.to_local(light)
         value, density = self._eval_pdf(si, point, material, frame, wo, active)
-        valid = density > 0
+        return wo, density, dr.select(density > 0, value / density, 0)
+
+    def _sample(self, si, point, material, frame, sample1, sample2, active):
+        wo, density, weight = self._draw(si, point, material, frame, sample1, sample2, active)
         bs = dr.zeros(mi.BSDFSample3f)
         bs.wo, bs.pdf, bs.eta = wo, density, 1.0
         bs.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
         bs.sampled_component = mi.UInt32(0)
-        weight = dr.select(valid, value / density, 0)
         if self.masked:
             hole = active & ~point.present
             bs.wo = dr.select(hole, -si.wi, bs.wo)

@@ -7,7 +7,9 @@ from pathlib import Path
 from lightmeter.groundtruth import batch_file, content
 from lightmeter.groundtruth.batch_file import DamagedFileError
 from lightmeter.groundtruth.batches import REFERENCE, Reference, batch_name, collect
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Series
+from lightmeter.scenes.errors import shown
 from lightmeter.scenes.model import Scene
 
 MANIFEST = "manifest.json"
@@ -21,7 +23,7 @@ class ReferenceFolderError(ValueError):
 def save(folder: Path, scene: Scene, reference: Reference) -> int:
     """Writes a reference to a folder; returns the bytes written. The manifest comes last."""
     height, width = reference.batches.shape[1:3]
-    of = Series.of(REFERENCE, scene, (width, height), reference.spp, reference.seed)
+    of = Series.of(REFERENCE, scene, (width, height), reference.spp, reference.seed, reference.scattering)
     count, total = len(reference.batches), 0
     digests = {}
     for batch, image in enumerate(reference.batches):
@@ -38,6 +40,7 @@ def save(folder: Path, scene: Scene, reference: Reference) -> int:
         "spp": reference.spp,
         "batches": count,
         "seed": reference.seed,
+        "truth": reference.scattering,
         "seconds": round(reference.seconds, 3),
         "versions": content.versions(),
         "definition": content.definition_key()[:16],
@@ -55,12 +58,14 @@ def load(
     scene: Scene,
     size: tuple[int, int] | None = None,
     say: Callable[[str], None] = lambda message: None,
+    scattering: str = SINGLE,
 ) -> Reference:
     """The reference in a folder, once it is sure that it belongs to the scene.
 
     Args:
         size: (width, height) that it must have; None takes what it has.
         say: told where it was made by other versions, which does not stop it.
+        scattering: which truth it must be of.
 
     Raises:
         ReferenceFolderError: with what is wrong and how to mend it.
@@ -73,6 +78,11 @@ def load(
             f"(its scene is {manifest['scene']!r}, the one asked for {scene.name!r}); {again}"
         )
     width, height = manifest["size"]
+    if manifest["truth"] != scattering:
+        raise ReferenceFolderError(
+            f"{folder / MANIFEST}: expected the truth {scattering!r}, got {shown(manifest['truth'])}; "
+            f"pass the `--truth` that it was made with, or {again} --truth {scattering}"
+        )
     if size is not None and (width, height) != tuple(size):
         raise ReferenceFolderError(
             f"{folder / MANIFEST}: expected {size[0]} × {size[1]} pixels, got {width} × {height}; "
@@ -92,8 +102,8 @@ def load(
         if metadata["sha256"] != wanted or "" not in layers:
             raise ReferenceFolderError(f"{folder / name} is not the file that {MANIFEST} lists; {again}")
         images.append(layers[""])
-    of = Series.of(REFERENCE, scene, (width, height), manifest["spp"], manifest["seed"])
-    found = collect(images, of, manifest["seconds"], len(images))
+    of = Series.of(REFERENCE, scene, (width, height), manifest["spp"], manifest["seed"], scattering)
+    found = collect(images, of, manifest["seconds"], len(images), scattering)
     return Reference(**{**vars(found), "key": manifest["key"]})
 
 
@@ -105,6 +115,7 @@ _EXPECTED = {
     "spp": int,
     "batches": int,
     "seed": int,
+    "truth": str,
     "seconds": (int, float),
     "versions": str,
     "definition": str,
@@ -128,6 +139,7 @@ def _manifest(folder: Path) -> dict:
     if not isinstance(manifest, dict) or manifest.get("schema") != SCHEMA:
         found = manifest.get("schema") if isinstance(manifest, dict) else None
         raise ReferenceFolderError(f"{path}: schema: expected {SCHEMA}, got {found!r}; {hint}")
+    manifest.setdefault("truth", SINGLE)  # references made before there was another
     for key, kind in _EXPECTED.items():
         if not isinstance(manifest.get(key), kind) or isinstance(manifest.get(key), bool):
             raise ReferenceFolderError(f"{path}: {key} is missing or of the wrong type; {hint}")

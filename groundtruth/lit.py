@@ -12,9 +12,10 @@ import numpy as np
 from lightmeter.groundtruth import rays
 from lightmeter.groundtruth.heuristic import power_heuristic
 from lightmeter.groundtruth.incident import incident
+from lightmeter.groundtruth.scattering import MULTISCATTER
 from lightmeter.groundtruth.variant import dr, mi
-from lightmeter.groundtruth.vertex import Vertex, Vertices
-from lightmeter.groundtruth.wavefront import Lanes
+from lightmeter.groundtruth.vertex import MultiscatterVertex, Vertex, Vertices
+from lightmeter.groundtruth.wavefront import Lanes, average
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.model import AreaLight, Light, PunctualLight
 from lightmeter.scenes.optics import material as optics
@@ -30,7 +31,7 @@ def reflected(
 
     Args:
         light: index into `scene.all_lights`.
-        spp: samples per point and strategy; punctual lights need none.
+        spp: samples per point and strategy; of punctual lights for what has no closed form, where the truth is such.
 
     Returns:
         (*lead, 3) float32, or (2, *lead, 3): A, B.
@@ -48,7 +49,10 @@ def reflected(
     elif vertices.count == 0:
         both = np.zeros((*vertices.lead, 6 if shadowed else 3), np.float32)
     else:
-        both = vertices.image(_from_punctual(world, the_light, vertices, shadowed))
+        further = None
+        if world.scattering == MULTISCATTER:
+            further = _further_bounces(the_light, vertices, spp, (*seed, _STREAM, light))
+        both = vertices.image(_from_punctual(world, the_light, vertices, shadowed, further))
     if world.scene.max_depth == 1 and shadowed:
         both[..., :3] = 0
     return np.ascontiguousarray(np.moveaxis(both.reshape(*vertices.lead, -1, 3), -2, 0)) if shadowed else both
@@ -61,13 +65,21 @@ def _light(world: World, index: int) -> Light:
     return lights[index]
 
 
-def _from_punctual(world: World, light: PunctualLight, vertices: Vertices, shadowed: bool) -> np.ndarray:
-    """(3 or 6, count): in double precision, as it is a closed form; only the shadow ray is single."""
+def _from_punctual(
+    world: World, light: PunctualLight, vertices: Vertices, shadowed: bool, further: np.ndarray | None
+) -> np.ndarray:
+    """(3 or 6, count): in double precision, as it is a closed form; only the shadow ray is single.
+
+    Args:
+        further: (3, count) unshadowed radiance to be added; None: nothing.
+    """
     vertex = vertices.at(dr.arange(mi.UInt32, vertices.count))
     position = mi.Vector3d(vertex.position)
     towards, irradiance, end = incident(light, position)
     normal, view = dr.normalize(mi.Vector3d(vertex.normal)), dr.normalize(mi.Vector3d(vertex.view))
     unshadowed = mi.Color3f(optics.evaluate(vertex.material_in_double, normal, view, towards) * irradiance)
+    if further is not None:
+        unshadowed += mi.Color3f(further)
     if not shadowed:
         dr.eval(unshadowed)
         return unshadowed.numpy()
@@ -78,6 +90,17 @@ def _from_punctual(world: World, light: PunctualLight, vertices: Vertices, shado
     transported = dr.select(lit, unshadowed, 0)
     dr.eval(transported, unshadowed)
     return np.concatenate([transported.numpy(), unshadowed.numpy()])
+
+
+def _further_bounces(light: PunctualLight, vertices: Vertices, spp: int, seed: Sequence[int]) -> np.ndarray:
+    """(3, count): unshadowed radiance by more than one bounce on the microsurface."""
+
+    def estimate(lanes: Lanes):
+        vertex = MultiscatterVertex(vertices, lanes)
+        towards, irradiance, _ = incident(light, mi.Vector3d(vertex.position))
+        return list(vertex.further_bounces(mi.Vector3f(towards)) * mi.Color3f(irradiance))
+
+    return average(vertices.count, spp, seed, estimate, channels=3)
 
 
 def _from_surface(world: World, light: AreaLight, vertex: Vertex, lanes: Lanes, shadowed: bool):

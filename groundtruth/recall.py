@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from lightmeter.groundtruth import content, oracles
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Series, Store
 from lightmeter.groundtruth.variant import choose
 from lightmeter.scenes.model import Scene
@@ -24,6 +25,7 @@ def recall(
     batch: int,
     light: int | None = None,
     key: str | None = None,
+    scattering: str = SINGLE,
 ) -> tuple[np.ndarray, bool]:
     """One batch of a term that gives images.
 
@@ -32,6 +34,7 @@ def recall(
         world: gives the scene's `World`; called, and Mitsuba imported, only where the store lacks the batch.
         light: index into `scene.all_lights`, for a term that is per light.
         key: `content.points_key` of the points, where the caller has it.
+        scattering: which truth; the world's.
         store: None: evaluated, and kept nowhere.
 
     Returns:
@@ -49,7 +52,7 @@ def recall(
 
     if store is None:
         return evaluate(), False
-    series = Series.of(term, scene, (width, height), spp, seed, variant=choose(), **whose)
+    series = Series.of(term, scene, (width, height), spp, seed, scattering, variant=choose(), **whose)
     name = f"batch-{batch:04d}-{(key or content.points_key(points))[:16]}"
 
     def make() -> dict[str, np.ndarray]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from lightmeter.groundtruth import batch_file, content
 from lightmeter.groundtruth.batch_file import TEMPORARY, DamagedFileError
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.scenes.model import Scene
 
 FOLDER_VARIABLE = "LIGHTMETER_STORE"
@@ -53,9 +54,24 @@ class Series:
     settings: tuple[tuple[str, str], ...] = ()
 
     @classmethod
-    def of(cls, kind: str, scene: Scene, size: tuple[int, int], spp: int, seed: int, **settings: object) -> "Series":
-        """The series of a scene, with the versions and the definition of the truth among its settings."""
+    def of(
+        cls,
+        kind: str,
+        scene: Scene,
+        size: tuple[int, int],
+        spp: int,
+        seed: int,
+        scattering: str = SINGLE,
+        **settings: object,
+    ) -> "Series":
+        """The series of a scene, with the versions and the definition of the truth among its settings.
+
+        Args:
+            scattering: which truth; it is among the settings where it is not the usual one.
+        """
         known = {"versions": content.versions(), "definition": content.definition_key()[:16]}
+        if scattering != SINGLE:
+            known["truth"] = scattering
         told = tuple(sorted((k, str(v)) for k, v in (known | settings).items()))
         return cls(kind, scene.name, content.scene_key(scene), (int(size[0]), int(size[1])), spp, seed, told)
 

@@ -6,7 +6,8 @@ effect's error is not mixed with rasterisation or texture filtering.
 
 import numpy as np
 
-from lightmeter.groundtruth import surface
+from lightmeter.groundtruth import microsurface, surface
+from lightmeter.groundtruth.scattering import MULTISCATTER
 from lightmeter.groundtruth.tables import DOUBLE_SIDED
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.wavefront import Lanes, average
@@ -81,6 +82,11 @@ class Vertices:
         """The points of lanes; `place` (UInt32) counts the seen points."""
         return Vertex(self, place)
 
+    def _vertex(self, lanes: Lanes) -> "Vertex":
+        if self.world.scattering == MULTISCATTER:
+            return MultiscatterVertex(self, lanes)
+        return self.at(lanes.place)
+
     def image(self, values: np.ndarray) -> np.ndarray:
         """(C, count) → (*lead, C) float32, zero where nothing is seen."""
         out = np.zeros((int(np.prod(self.lead)), len(values)), np.float32)
@@ -93,7 +99,7 @@ class Vertices:
             return np.zeros((*self.lead, channels), np.float32)
 
         def per_lane(lanes: Lanes):
-            return estimate(self.at(lanes.place), lanes)
+            return estimate(self._vertex(lanes), lanes)
 
         return self.image(average(self.count, spp, seed, per_lane, channels, dimensions))
 
@@ -187,3 +193,28 @@ class Vertex:
         light = optics.sample(self.material, self.normal, self.view, u, mi.Vector3f)
         value, density = self.evaluate(light)
         return light, dr.select(density > 0, value / density, 0), density
+
+
+class MultiscatterVertex(Vertex):
+    """One point per lane whose rough surfaces scatter more than once (see `microsurface`): values are estimates.
+
+    Every call draws further random numbers of the lane, so that estimates are independent of each other.
+    """
+
+    def __init__(self, vertices: Vertices, lanes: Lanes):
+        super().__init__(vertices, lanes.place)
+        numbers = lanes.sampler
+        self._noise = microsurface.Noise(lanes.place, numbers.next_1d(), numbers.next_1d())
+
+    def evaluate(self, light):
+        """An unbiased estimate of f·cos, and the density that weighs it against other strategies."""
+        return microsurface.evaluate(self.material, self.normal, self.view, light, self._noise)
+
+    def further_bounces(self, light):
+        """Color3f: an unbiased estimate of that part of f·cos which has no closed form."""
+        return microsurface.towards(self.material, self.normal, self.view, light, self._noise)
+
+    def sample(self, pattern):
+        """A direction from the material: (direction, its weight, density); three dimensions of the pattern."""
+        u = (pattern.next(), pattern.next(), pattern.next())
+        return microsurface.sample(self.material, self.normal, self.view, u, self._noise)

@@ -8,6 +8,8 @@ from lightmeter.groundtruth import emitters, tables
 from lightmeter.groundtruth.bsdf import MASK, SceneBSDF, kind
 from lightmeter.groundtruth.emitters import SurfaceEmitter
 from lightmeter.groundtruth.environment_map import MapEmitter
+from lightmeter.groundtruth.multiscatter_bsdf import MultiscatterBSDF
+from lightmeter.groundtruth.scattering import MULTISCATTER, SINGLE, check_scattering
 from lightmeter.groundtruth.surface import ALL_SLOTS
 from lightmeter.groundtruth.tables import Tables
 from lightmeter.groundtruth.variant import dr, mi
@@ -29,6 +31,7 @@ class World:
         tables: the surfaces' attributes.
         masked: whether any material has an alpha mask.
         slots: texture slots (and "color", and the materials' layers) that any shape uses.
+        scattering: which truth, see `scattering`.
     """
 
     scene: Scene
@@ -38,17 +41,20 @@ class World:
     tables: Tables
     masked: bool
     slots: frozenset[str]
+    scattering: str = SINGLE
     _alone: dict = field(default_factory=dict)
 
     @classmethod
-    def of(cls, scene: Scene) -> "World":
+    def of(cls, scene: Scene, scattering: str = SINGLE) -> "World":
         """Builds the world of a scene.
 
         Raises:
             NoRendererError: Mitsuba cannot run here.
-            ValueError: the scene has more texels or corners than 32 bits can count.
+            ValueError: the scene has more texels or corners than 32 bits can count, or there is no such truth.
         """
-        bsdfs = {k: SceneBSDF(k) for k in dict.fromkeys(map(kind, scene.shapes))}
+        check_scattering(scattering, scene)
+        bsdf_of = MultiscatterBSDF if scattering == MULTISCATTER else SceneBSDF
+        bsdfs = {k: bsdf_of(k) for k in dict.fromkeys(map(kind, scene.shapes))}
         lamps = {light.shape: emitters.area(scene.shapes[light.shape]) for light in scene.area_lights}
         meshes = tuple(
             _mesh(shape, bsdfs[kind(shape)], lamps.get(index)) if len(shape.mesh.triangles) else None
@@ -77,6 +83,7 @@ class World:
             table,
             any(MASK in k for k in bsdfs),
             frozenset(used) & ALL_SLOTS,
+            scattering,
         )
 
     def integrator(self, max_depth: int):

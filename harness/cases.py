@@ -64,7 +64,7 @@ class Case:
     def truth(self) -> Truth:
         """The exact side."""
         c = self.conditions
-        return Truth(self.plan.true_scene, c.size, Budget(c.spp), c.seed, store=self.store)
+        return Truth(self.plan.true_scene, c.size, Budget(c.spp), c.seed, store=self.store, scattering=c.scattering)
 
     @cached_property
     def display(self) -> Callable[[np.ndarray], np.ndarray]:

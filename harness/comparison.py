@@ -16,6 +16,7 @@ from lightmeter.closure import closure_batches
 from lightmeter.device import fingerprint
 from lightmeter.display_shares import attribute_display
 from lightmeter.families import Families, composition
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.finite import find_non_finite
@@ -95,6 +96,8 @@ def compare(
     choice: Choice | None = None,
     store: Store | None = None,
     folder: Path | None = None,
+    scattering: str = SINGLE,
+    against: str | None = None,
     shares: bool = True,
     report: Report = silent,
     say: Callable[[str], None] = lambda _message: None,
@@ -108,6 +111,8 @@ def compare(
         seed: names the random numbers of the truth.
         store: where batches and oracles are kept; None: nowhere.
         folder: a reference made by `lightmeter reference`, taken as it is.
+        scattering: which truth, see `groundtruth.scattering`.
+        against: another truth that candidates are held against too; its reference is rendered.
         shares: whether the frame's error is shared out among the effects.
         report: told of progress.
         say: told of what the user should know.
@@ -129,7 +134,8 @@ def compare(
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)
-    truth = Truth(plan.true_scene, size, budget or Budget(), seed, store=store, folder=folder, report=report, say=say)
+    how = {"store": store, "report": report, "say": say}
+    truth = Truth(plan.true_scene, size, budget or Budget(), seed, folder=folder, scattering=scattering, **how)
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
@@ -152,13 +158,20 @@ def compare(
     measured = answers(questions, display, report)
     frame_metrics = measured[_FRAME] | measured[_COSTLY]
     ours = frame_metrics, _timing(times.frame), times.method
-    others = compare_candidates(gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report)
+    other = Truth(scene, size, budget or Budget(), seed, scattering=against, **how) if against else None
+    others = compare_candidates(
+        gathered, renderer, truth, frame.radiance, ours, display, FRAME_METRICS, shares, report, other
+    )
     results = outcome.Results(
         scene=scene.name,
         size=size,
         device=fingerprint(device.renderer, device.version),
         reference=outcome.Reference(
-            reference.spp * truth.batches, truth.batches, reference.seconds, reference.reused == truth.batches
+            reference.spp * truth.batches,
+            truth.batches,
+            reference.seconds,
+            reference.reused == truth.batches,
+            scattering,
         ),
         frame=outcome.Frame(frame_metrics, _timing(times.frame)),
         effects=tuple(
@@ -177,7 +190,7 @@ def compare(
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
-        notes=scene.notes + _notes(renderer, times) + few_carry(frame.radiance, reference.batches),
+        notes=scene.notes + _notes(renderer, times) + others.notes + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,

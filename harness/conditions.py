@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from lightmeter.groundtruth.scattering import SINGLE
+
 KnobValue = bool | int | float | str
 
 
@@ -13,6 +15,7 @@ class Conditions:
         size: (width, height).
         spp: samples per pixel at most.
         settings: (effect, knob, value), sorted.
+        scattering: which truth, see `groundtruth.scattering`.
     """
 
     size: tuple[int, int]
@@ -23,6 +26,7 @@ class Conditions:
     without: tuple[str, ...]
     use: tuple[str, ...]
     settings: tuple[tuple[str, str, KnobValue], ...]
+    scattering: str = SINGLE
 
     def beside(self, usual: "Conditions") -> str:
         """What sets these conditions apart from the usual ones, in words; "" where nothing does."""
@@ -37,6 +41,8 @@ class Conditions:
                 found[f" {name}"] = f"{name} {' '.join(value)}"
         if self.camera is not None:
             found[" camera"] = f"camera {self.camera}"
+        if self.scattering != SINGLE:
+            found[" truth"] = f"truth {self.scattering}"
         found[" size"] = f"{self.size[0]}x{self.size[1]}"
         found[" spp"] = f"{self.spp} spp"
         found[" seed"] = f"seed {self.seed}"

@@ -16,7 +16,6 @@ from lightmeter.groundtruth.oracles import coverage
 from lightmeter.groundtruth.store import Series
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.renderer import Capture, Renderer
-from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import MOST_SAMPLES, FramePoints
 from lightmeter.stacking import mean_samples
@@ -83,7 +82,7 @@ class Families:
         """At the frame's own points; what needs no oracle is the same for all batches."""
         at, seen = self._at, self._at.seen(exact)
         batches = [at.batch(exact, batch, at.spp) for batch in range(self._truth.batches)]
-        layers = layers_at(self._slots, seen.points, seen.captures, batches, seen.truth.scene)
+        layers = layers_at(self._slots, seen.points, seen.captures, batches, seen.truth)
         if exact:
             self.layers(())  # whose shift is this one's too
         else:
@@ -106,7 +105,7 @@ def layers_at(
     points: SurfacePoints,
     captures: Sequence[Capture],
     batches: Sequence[ExactBatch],
-    scene: Scene,
+    truth: Truth,
 ) -> Layers:
     """The layers at some points; what needs no oracle is the same for all batches.
 
@@ -116,7 +115,7 @@ def layers_at(
     ratios = exact_ratios(batches)
     images = []
     for slot in slots:
-        many = [batches if _is_noisy(slot, which, scene) else batches[:1] for which in slot.sets]
+        many = [batches if _is_noisy(slot, which, truth) else batches[:1] for which in slot.sets]
         images.append(
             tuple(
                 np.stack([slot_image(slot, which, captures, batch, ratios) for batch in those])
@@ -131,9 +130,9 @@ def composition(layers: Layers, exact: Collection[str]) -> np.ndarray:
     return sum(layers.parts(exact), start=np.zeros((1, 1, 1, 3)))
 
 
-def _is_noisy(slot: Slot, which: int, scene: Scene) -> bool:
+def _is_noisy(slot: Slot, which: int, truth: Truth) -> bool:
     """Whether a slot's image differs from batch to batch: where an exact radiance comes from a Monte Carlo oracle."""
-    closed_form = slot.term == "direct" and not any(isinstance(scene.all_lights[i], AreaLight) for i in slot.lights)
+    closed_form = slot.term == "direct" and not any(truth.is_sampled(light) for light in slot.lights)
     return bool(which & 1) and not closed_form
 
 
@@ -171,6 +170,7 @@ def offset_layers(
         truth.size,
         truth.reference.spp,
         truth.seed,
+        truth.scattering,
         samples=(samples, emission_spp, spp),
         exact=sorted(exact),
         slots=[(slot.term, slot.players, slot.lights) for slot in slots],

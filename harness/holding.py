@@ -16,7 +16,9 @@ from lightmeter.candidates.gathering import check_all
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
 from lightmeter.gating import Trial, decide, start_trials
+from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 from lightmeter.groundtruth.store import Store
+from lightmeter.hints import nearest
 from lightmeter.image_pair import ImagePair
 from lightmeter.limit_text import FORM, parse_limit
 from lightmeter.limits import DEFAULT_SPP, FRAME, Limit
@@ -40,6 +42,7 @@ def conditions(
     without: Sequence[str] = (),
     use: Sequence[str] = (),
     knobs: Knobs | None = None,
+    truth: str = SINGLE,
 ) -> Conditions:
     """How a scene is judged: the keys of `[defaults]` in lightmeter.toml; `knobs` is its `set`.
 
@@ -47,20 +50,25 @@ def conditions(
         size: "128x128", or (width, height).
         spp: samples per pixel at most.
         knobs: {"shadow_map": {"resolution": 256}}.
+        truth: "single" or "multiscatter".
 
     Raises:
-        UsageError: the size, the samples or the seed are out of range, or the knobs have another form.
+        UsageError: the size, the samples or the seed are out of range, there is no such truth, or the knobs have
+            another form.
     """
     width, height = options.size(size if isinstance(size, str) else "x".join(map(str, size)), "size")
     if not options.MIN_BATCHES <= spp <= options.MAX_SPP:
         raise UsageError(f"spp: expected {options.MIN_BATCHES} to {options.MAX_SPP}, got {spp}")
     if not 0 <= seed < 1 << 32:
         raise UsageError(f"seed: expected 0 to {(1 << 32) - 1}, got {seed}")
+    if truth not in SCATTERINGS:
+        raise UsageError(f"truth: there is no {truth!r}; {nearest(truth, SCATTERINGS)}")
     for effect, of in (knobs or {}).items():
         if not isinstance(of, Mapping):
             raise UsageError(f"knobs: expected {{EFFECT: {{KNOB: VALUE}}}}, got {of!r} for {effect!r}")
     settings = sorted((effect, knob, value) for effect, of in (knobs or {}).items() for knob, value in of.items())
-    return Conditions((width, height), spp, seed, camera, tuple(only), tuple(without), tuple(use), tuple(settings))
+    choice = tuple(only), tuple(without), tuple(use), tuple(settings)
+    return Conditions((width, height), spp, seed, camera, *choice, truth)
 
 
 def hold(

@@ -7,6 +7,7 @@
     [defaults]
     size = "256x256"
     spp = 1024                  # samples per pixel at most
+    truth = "single"            # or "multiscatter", see groundtruth/scattering.py
 
     [[limit]]
     scene = "scenes/*.toml"     # a pattern relative to this file, or a library name
@@ -43,7 +44,7 @@ What a limit does not say, `[defaults]` says for it.
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -52,6 +53,7 @@ from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.configured import CandidateEntry
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
+from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 from lightmeter.regions import EVERYWHERE, Region
 from lightmeter.scenes.files import read_bytes
 from lightmeter.scenes.validation import Strict, read_toml
@@ -80,12 +82,17 @@ def _size(text: str) -> str:
     return text
 
 
+ScatteringName = Literal["single", "multiscatter"]
+assert set(get_args(ScatteringName)) == set(SCATTERINGS)
+
+
 class Setting(Strict):
     """How a scene is judged; a limit's own keys go before those of `[defaults]`."""
 
     size: Annotated[str, AfterValidator(_size)] | None = None
     spp: Annotated[int, Field(strict=True, ge=options.MIN_BATCHES, le=options.MAX_SPP)] | None = None
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**32)] | None = None
+    truth: ScatteringName | None = None
     camera: str | Annotated[int, Field(strict=True, ge=0)] | None = None
     only: Names = ()
     without: Names = ()
@@ -290,6 +297,7 @@ def _conditions(setting: Setting, defaults: Setting, place: str) -> Conditions:
         without=said("without"),
         use=said("use"),
         settings=tuple(sorted((_knobs(defaults, place) | _knobs(setting, place)).values())),
+        scattering=said("truth") or SINGLE,
     )
 
 

@@ -5,17 +5,21 @@ import math
 import os
 import re
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from lightmeter.failures import UsageError
+from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 
 DEFAULT_SIZE = "512x512"
 DEFAULT_SPP = 64
 DEFAULT_CONFIDENCE = 0.999
 MIN_BATCHES = 8
 MAX_SPP = 1 << 20
+BOTH = "both"
+"""In place of a truth: the usual one, and candidates against the other as well."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,19 @@ def add_budget(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--seconds", type=number, metavar="S", help="render the reference for S seconds instead")
     parser.add_argument("--seed", type=whole, default=0, metavar="N", help="names the random numbers (default 0)")
+
+
+def add_truth(parser: argparse.ArgumentParser, more: Sequence[str] = ()) -> None:
+    """Which truth; `more` are words beside the truths."""
+    parser.add_argument(
+        "--truth",
+        choices=[*SCATTERINGS, *more],
+        default=SINGLE,
+        help="what rough surfaces do with light between their facets: lost after one bounce, as glTF defines it, or "
+        "followed until it leaves"
+        + (f"; {BOTH}: candidates against either" if BOTH in more else "")
+        + " (default %(default)s)",
+    )
 
 
 def add_choice(parser: argparse.ArgumentParser) -> None:

@@ -132,6 +132,7 @@ class Sweeping:
                 self._truth.batches,
                 reference.seconds,
                 reference.reused == self._truth.batches,
+                self._truth.scattering,
             ),
             effects=tuple(found.ranked(effect, self._curve) for effect in swept),
             path_tracer=tuple(self._curve),

@@ -12,6 +12,7 @@ import numpy as np
 from lightmeter.groundtruth.batches import Progress, Reference, reference, reference_in_time
 from lightmeter.groundtruth.content import points_key
 from lightmeter.groundtruth.recall import recall
+from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
@@ -67,6 +68,7 @@ class Truth:
     Args:
         store: where batches and oracles are kept; None: nowhere.
         folder: a reference written by `lightmeter reference`, taken in place of rendering one.
+        scattering: which truth, see `groundtruth.scattering`.
         report: told of progress.
         say: told, in a sentence, of what the user should know (a damaged file, a reference of another version).
         reference_of: whose reference is this one's too; None: it has its own.
@@ -81,12 +83,13 @@ class Truth:
         *,
         store: Store | None = None,
         folder: Path | None = None,
+        scattering: str = SINGLE,
         report: Report = silent,
         say: Callable[[str], None] = lambda _message: None,
         reference_of: "Truth | None" = None,
     ) -> None:
         self.scene, self.size, self.budget, self.seed, self.store = scene, size, budget, seed, store
-        self.missing = missing_terms(scene)
+        self.scattering, self.missing = scattering, missing_terms(scene)
         self._folder, self._report, self._say, self._reference_of = folder, report, say, reference_of
         self._other: Truth | None = None
         self._keys: WeakKeyDictionary[SurfacePoints, str] = WeakKeyDictionary()
@@ -98,7 +101,7 @@ class Truth:
     def _world(self):
         from lightmeter.groundtruth.world import World
 
-        return World.of(self.scene)
+        return World.of(self.scene, self.scattering)
 
     def on(self, scene: Scene) -> "Truth":
         """The oracles on another surface of the same scene, with this truth's reference.
@@ -114,6 +117,7 @@ class Truth:
                 self.budget,
                 self.seed,
                 store=self.store,
+                scattering=self.scattering,
                 report=self._report,
                 say=self._say,
                 reference_of=self,
@@ -137,8 +141,8 @@ class Truth:
         if self._folder is not None:
             from lightmeter.groundtruth.folder import load
 
-            return load(self._folder, self.scene, self.size, self._say)
-        common = {"seed": self.seed, "store": self.store, "progress": progress}
+            return load(self._folder, self.scene, self.size, self._say, self.scattering)
+        common = {"seed": self.seed, "store": self.store, "scattering": self.scattering, "progress": progress}
         if self.budget.seconds is not None:
             return reference_in_time(self.scene, self.size, seconds=self.budget.seconds, **common)
         spp = self.budget.spp_per_batch
@@ -147,13 +151,14 @@ class Truth:
     def to_depth(self, depth: int) -> "Truth":
         """The same for paths of at most this depth: 2 is direct light, and each bounce more is one more."""
         scene = replace(self.scene, max_depth=depth)
-        return Truth(scene, self.size, self.budget, self.seed, store=self.store, report=self._report, say=self._say)
+        how = {"store": self.store, "scattering": self.scattering, "report": self._report, "say": self._say}
+        return Truth(scene, self.size, self.budget, self.seed, **how)
 
     def reference_batch(self, batch: int, spp: int) -> np.ndarray:
         """(H, W, 3): one batch of the reference by its number, without the others."""
         from lightmeter.groundtruth.batches import one_batch
 
-        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world}
+        options = {"seed": self.seed, "store": self.store, "world": lambda: self._world, "scattering": self.scattering}
         return one_batch(self.scene, self.size, spp, batch, **options)
 
     def seen(self, offset: np.ndarray) -> SurfacePoints:
@@ -257,9 +262,13 @@ class Truth:
             rest["indirect"] = self._oracle("indirect", points, **options)
         return ExactBatch(points.emission, direct, shadowed, **rest)
 
+    def is_sampled(self, light: int) -> bool:
+        """Whether a light's radiance at a point has no closed form, so that every batch is another."""
+        return isinstance(self.scene.all_lights[light], AreaLight) or self.scattering != SINGLE
+
     def _light(self, points: SurfacePoints, light: int, options: dict) -> Ratio:
-        """A and B of a light. Punctual lights are exact: every batch is the same, and asked for once."""
-        if isinstance(self.scene.all_lights[light], AreaLight):
+        """A and B of a light. Punctual lights have a closed form in glTF's truth: one batch is all, asked for once."""
+        if self.is_sampled(light):
             return self._ratio(points, light, options)
         known = self._punctual.setdefault(points, {})
         if light not in known:
@@ -295,6 +304,7 @@ class Truth:
             lambda: self._world,
             light=light,
             key=self._key(points) if keep else "",
+            scattering=self.scattering,
             **options,
         )
         return image.reshape(*image.shape[:-3], samples, height, width, 3)

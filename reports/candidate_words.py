@@ -4,8 +4,10 @@ import math
 from collections.abc import Sequence
 
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.reports.metric_words import label
 from lightmeter.reports.results import Candidate, Finding, LayerError, Timing
 from lightmeter.reports.shown_names import printable
+from lightmeter.reports.significant import show_measurement
 
 COLUMNS = ("rmse", "flip", "ssim", "relative_bias")
 LAYER_COLUMNS = ("rmse", "nrmse", "flip", "ssim", "relative_bias")
@@ -82,6 +84,18 @@ def pixel_words(candidates: Sequence[Candidate], size: tuple[int, int]) -> str:
     if counts == [total]:
         return f"over all {total:,} pixels"
     return f"over {' or '.join(f'{count:,}' for count in counts)} of {total:,} pixels, those that every engine supports"
+
+
+def definition_words(candidate: Candidate) -> str:
+    """Its errors against both truths and which of them it follows; "" where there was but one."""
+    if not candidate.truths:
+        return ""
+    verdict = f"follows {candidate.follows}" if candidate.follows else "cannot tell which it follows"
+    errors = []
+    for metric in next(iter(candidate.truths.values())):
+        each = [f"{show_measurement(found[metric])} against {truth}" for truth, found in candidate.truths.items()]
+        errors.append(f"{label(metric)} {', '.join(each)}")
+    return f"{verdict}: {'; '.join(errors)}"
 
 
 def not_finite(candidate: Candidate) -> str:

@@ -7,6 +7,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.candidate_words import (
     COLUMNS,
     LAYER_COLUMNS,
+    definition_words,
     fault_name,
     fault_status,
     is_ours,
@@ -50,6 +51,7 @@ def candidates_content(results: Results, shown: set[str]) -> dict[str, Any] | No
         "plots": [plot for plot in plots if plot],
         "findings": [_findings(one, mark) for one, mark in zip(candidates, marks, strict=True) if one.findings],
         "layers": [_layers(one, mark, shown) for one, mark in zip(candidates, marks, strict=True) if one.layers],
+        "definitions": [{"name": _name(one), "words": definition_words(one)} for one in candidates if one.truths],
         "notes": [
             {"name": _name(one), "notes": [printable(note) for note in one.notes]} for one in candidates if one.notes
         ],

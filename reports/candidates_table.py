@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from lightmeter.reports.candidate_words import (
     COLUMNS,
+    definition_words,
     fault_name,
     fault_status,
     is_ours,
@@ -97,6 +98,8 @@ def _remarks(candidate: Candidate) -> Iterator[Text]:
         yield Text(f"registration of {words}", style="" if finding.corrected else "yellow")
     for purpose, option in remedies(candidate.findings):
         yield Text(f"  {purpose}: {option}", style="yellow")
+    if words := definition_words(candidate):
+        yield reason(f"definition of {name}", words)
     if masked := masked_words(candidate):
         yield reason(f"masked for {name}", ", ".join(masked))
     for layer in candidate.layers:

@@ -18,6 +18,7 @@ from lightmeter.reports.ray_content import ray_content
 from lightmeter.reports.results import Effect, Metrics, Results, Timing
 from lightmeter.reports.shadow_content import shadow_content
 from lightmeter.reports.significant import show_number
+from lightmeter.reports.truth_words import truth_name, truth_words
 
 _HEADLINE = ("nrmse", "rmse", "flip", "flip_hdr", "ssim")
 _EFFECT_COLUMNS = ("flip", "flip_hdr", "ssim")
@@ -55,7 +56,7 @@ def _subtitle(results: Results) -> str:
     parts = [f"{results.size[0]} × {results.size[1]} pixels"]
     if results.reference:
         parts.append(f"{results.reference.spp} samples per pixel in {results.reference.batches} batches")
-    return " · ".join(parts)
+    return " · ".join(parts) + truth_words(results.reference)
 
 
 def _failures(results: Results) -> list[str]:
@@ -255,6 +256,7 @@ def _reference(results: Results) -> list[tuple[str, str]]:
     if reference is None:
         return []
     return [
+        ("Truth", truth_name(reference.truth)),
         ("Samples per pixel", str(reference.spp)),
         ("Independent batches", str(reference.batches)),
         ("Rendering time", f"{show_number(reference.seconds)} s"),

@@ -37,12 +37,13 @@ class PassTime:
 
 @dataclass(frozen=True)
 class Reference:
-    """What the reference cost: `spp` samples per pixel in all, in `batches` independent batches."""
+    """What the reference cost: `spp` samples per pixel in all, in `batches` independent batches; and which truth."""
 
     spp: int
     batches: int
     seconds: float
     cached: bool
+    truth: str = "single"
 
 
 @dataclass(frozen=True)
@@ -312,6 +313,8 @@ class Candidate:
         nonfinite: how many pixels are NaN or infinite.
         engine, device: what made it, in the engine's own words.
         notes: what the reader should know.
+        truths: truth to the frame's metrics against it; empty where there was but one.
+        follows: the truth that it is surely nearer to; "" where that cannot be told.
     """
 
     name: str
@@ -329,6 +332,8 @@ class Candidate:
     engine: str = ""
     device: str = ""
     notes: tuple[str, ...] = ()
+    truths: Mapping[str, Metrics] = field(default_factory=dict)
+    follows: str = ""
 
 
 @dataclass(frozen=True)

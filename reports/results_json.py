@@ -239,6 +239,7 @@ def _reference(node: _Node) -> Reference:
         batches=node.get("batches").integer(),
         seconds=node.get("seconds").number(),
         cached=node.get("cached").flag(),
+        truth=node.get("truth", "single").text(),
     )
 
 
@@ -361,6 +362,8 @@ def _candidate(node: _Node) -> Candidate:
         engine=node.get("engine", "").text(),
         device=node.get("device", "").text(),
         notes=node.get("notes", []).texts(),
+        truths={name: _metrics(item) for name, item in node.get("truths", {}).nodes().items()},
+        follows=node.get("follows", "").text(),
     )
 
 

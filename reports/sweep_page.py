@@ -18,6 +18,7 @@ from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
 from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Sweep, SweptEffect, to_csv
 from lightmeter.reports.sweep_table import conclusions, crossing, show_time
+from lightmeter.reports.truth_words import truth_words
 
 
 def write_sweep(folder: str | os.PathLike[str], sweep: Sweep) -> Path:
@@ -62,7 +63,7 @@ def _subtitle(sweep: Sweep) -> str:
     width, height = sweep.size
     return (
         f"Error against run time · {width} × {height} pixels · reference of {sweep.reference.spp} samples per pixel in "
-        f"{sweep.reference.batches} batches"
+        f"{sweep.reference.batches} batches{truth_words(sweep.reference)}"
     )
 
 

@@ -23,6 +23,7 @@ from lightmeter.reports.shadow_content import shadow_line
 from lightmeter.reports.shown_names import printable
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.terminal_cells import bare, full, milliseconds, number, reason
+from lightmeter.reports.truth_words import truth_words
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -79,7 +80,7 @@ def comparison_table(results: Results) -> Table:
     from rich.table import Table
     from rich.text import Text
 
-    title = Text(f"{results.scene}, {results.size[0]}×{results.size[1]}")
+    title = Text(f"{results.scene}, {results.size[0]}×{results.size[1]}{truth_words(results.reference)}")
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     names = [name for metrics in _all_metrics(results) for name in metrics]
     shares = _shares(results)

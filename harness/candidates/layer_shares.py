@@ -34,7 +34,7 @@ def layer_shares(
         return None, "No shares: they need a scene-linear frame without masked pixels."
     slots = _slots(centres)
     captures = [as_capture(judged.handed, centres.points)]
-    layers = layers_at(slots, centres.points, captures, centres.exact, centres.truth.scene)
+    layers = layers_at(slots, centres.points, captures, centres.exact, centres.truth)
     rest = judged.image - composition(layers, ())
     off = float(np.sqrt(np.mean(rest**2)) / max(float(np.mean(judged.image)), 1e-12))
     if not off <= CLOSE:

@@ -1,10 +1,12 @@
 """All candidates of a comparison: measured over the same pixels as our own frame, with their layers and pictures."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lightmeter.candidates.candidate import OWN
+from lightmeter.candidates.definitions import against_each, apart_words, follows, told_apart
 from lightmeter.candidates.gathering import Gathered
 from lightmeter.candidates.judging import Judged, count, filled, judge, own_result
 from lightmeter.candidates.layer_buffers import Centres
@@ -47,10 +49,12 @@ class SideBySide:
     Attributes:
         results: ours first; empty where there is no candidate.
         exhibits: every candidate's frame, followed by its layers.
+        notes: what the reader should know of the comparison.
     """
 
     results: tuple[outcome.Candidate, ...] = ()
     exhibits: tuple[Exhibit, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def compare_candidates(
@@ -63,6 +67,7 @@ def compare_candidates(
     names: Sequence[str],
     shares: bool,
     report: Report,
+    other: Truth | None = None,
 ) -> SideBySide:
     """Measure every candidate beside our own frame.
 
@@ -72,6 +77,7 @@ def compare_candidates(
         display: our frame's display transform.
         names: the metrics of a frame.
         shares: whether errors are shared out among layers, where they make up the frame.
+        other: another truth of the same scene and size that every engine is held against too.
 
     Raises:
         UsageError: a candidate's layers or masks do not fit the scene.
@@ -107,7 +113,16 @@ def compare_candidates(
                 (why_not,) if why_not else (),
             )
         )
-    return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)))
+    notes = ()
+    if other is not None:
+        frames = {one.name: questions[one.name] for one in judged}
+        frames[OWN] = questions.get("", Question(tuple(names), Sides([frame], reference), bounds=True))
+        references = {each.scattering: each.reference.batches for each in (truth, other)}
+        where = told_apart(references)
+        truths = against_each(frames, references, where, display, report)
+        found = [replace(one, truths=truths[one.name], follows=follows(truths[one.name])) for one in found]
+        notes = (apart_words(references, where, display),)
+    return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)), notes)
 
 
 def _exhibits(

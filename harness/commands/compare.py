@@ -5,7 +5,8 @@ from pathlib import Path
 
 from lightmeter import options
 from lightmeter.candidates import words
-from lightmeter.failures import USAGE_ERROR
+from lightmeter.failures import USAGE_ERROR, UsageError
+from lightmeter.groundtruth.scattering import MULTISCATTER, SINGLE
 from lightmeter.progress import progress_bar
 
 
@@ -13,6 +14,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Scene, choice, budget, output."""
     options.add_scene(parser)
     options.add_budget(parser)
+    options.add_truth(parser, [options.BOTH])
     options.add_choice(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where the report goes (default lightmeter-out/SCENE)")
     parser.add_argument("--reference", metavar="DIR", help="a reference that `lightmeter reference` wrote")
@@ -26,6 +28,9 @@ def run(args: argparse.Namespace) -> int:
     """Compare, write the report, print the table."""
     size, budget, chosen = options.size(args.size), options.budget(args), options.words(args)
     candidates = words.candidates(args)
+    usual, other = (SINGLE, MULTISCATTER) if args.truth == options.BOTH else (args.truth, None)
+    if other and not candidates:
+        raise UsageError(f"--truth {options.BOTH}: candidates are held against both; name one with --candidate")
     from lightmeter.groundtruth.store import Store
     from lightmeter.realtime.graph import Choice
 
@@ -47,6 +52,8 @@ def run(args: argparse.Namespace) -> int:
             choice,
             store=store,
             folder=folder,
+            scattering=usual,
+            against=other,
             shares=not args.no_shares,
             report=report,
             say=options.say,

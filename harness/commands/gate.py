@@ -11,6 +11,7 @@ from pathlib import Path
 from lightmeter import options
 from lightmeter.candidates import words
 from lightmeter.failures import UsageError
+from lightmeter.groundtruth.scattering import SCATTERINGS
 from lightmeter.progress import progress_bar
 
 CONFIG = "lightmeter.toml"
@@ -25,6 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--confidence", type=options.number, metavar="C", help="that no verdict is wrong (default: the file's or 0.999)"
     )
+    parser.add_argument("--truth", choices=tuple(SCATTERINGS), help="in place of the truth that the limits name")
     parser.add_argument("--update", action="store_true", help="write the baseline that regressions are held against")
     parser.add_argument("--strict", action="store_true", help="exit with 3 where a limit is undecided")
     parser.add_argument("--junit", metavar="FILE", help="write the verdicts as JUnit XML")
@@ -55,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     confidence = rules.confidence if args.confidence is None else args.confidence
     seconds = rules.seconds if args.seconds is None else args.seconds
     limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
+    if args.truth:
+        limits = tuple(_under(limit, args.truth) for limit in limits)
     store = None if args.no_store else Store(say=options.say)
     pairs = plan_cases(limits, config, args.scenes, store, candidates)
     if args.update:
@@ -97,6 +101,14 @@ def _on_candidates(rules, asked):
     if not limits:
         raise UsageError(f"{rules.limits[0].place}: none of the limits is on a frame, which is what a candidate has")
     return tuple(limits), tuple(known.values())
+
+
+def _under(limit, truth: str):
+    """The limit by another truth. Its name says so: what a baseline holds is of one truth."""
+    if limit.conditions.scattering == truth:
+        return limit
+    variant = ", ".join(part for part in (limit.variant, f"truth {truth}") if part)
+    return replace(limit, conditions=replace(limit.conditions, scattering=truth), variant=variant)
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:
@@ -164,6 +176,7 @@ def _write_reports(folder: Path, trials) -> None:
             c.seed,
             choice_of(c),
             store=case.store,
+            scattering=c.scattering,
             say=options.say,
             candidates=[case.candidates[name] for name in names if case.gave(name)],
             candidates_folder=place / "candidates",

@@ -13,6 +13,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Scene, budget, output."""
     options.add_scene(parser)
     options.add_budget(parser)
+    options.add_truth(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="the folder (default lightmeter-out/SCENE-reference)")
     options.add_store(parser)
     options.add_json(parser)
@@ -29,7 +30,8 @@ def run(args: argparse.Namespace) -> int:
     target = options.output_folder(args.output or f"lightmeter-out/{scene.name}-reference")
     store = None if args.no_store else Store(say=options.say)
     with progress_bar() as report:
-        reference = Truth(scene, size, budget, args.seed, store=store, report=report, say=options.say).reference
+        how = {"store": store, "scattering": args.truth, "report": report, "say": options.say}
+        reference = Truth(scene, size, budget, args.seed, **how).reference
         written = reference_folder.save(target, scene, reference)
     facts = _facts(scene.name, size, reference, target, written)
     print(json.dumps(facts, indent=2, ensure_ascii=False) if args.json else _sentences(facts))
@@ -48,6 +50,7 @@ def _facts(scene: str, size: tuple[int, int], reference, folder: Path, written: 
         "batches": batches,
         "spp_per_batch": reference.spp,
         "seed": reference.seed,
+        "truth": reference.scattering,
         "seconds": round(reference.seconds, 3),
         "reused": reference.reused,
         "nonfinite": reference.nonfinite,

@@ -32,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="seconds for the path tracer's own convergence curve (default 60)",
     )
     options.add_budget(parser)
+    options.add_truth(parser)
     options.add_choice(parser)
     words.add_candidates(parser)
     parser.add_argument("-o", "--output", metavar="DIR", help="where it goes (default lightmeter-out/SCENE-sweep)")
@@ -65,15 +66,9 @@ def run(args: argparse.Namespace) -> int:
     with TemporaryDirectory() as scratch, progress_bar() as report:
         # Settings share oracles: without the store they are kept for this run.
         store = Store(Path(scratch)) if args.no_store else Store(say=options.say)
-        truth = Truth(
-            compile_plan(scene, effects(), choice).true_scene,
-            size,
-            budget,
-            args.seed,
-            store=store,
-            report=report,
-            say=options.say,
-        )
+        how = {"store": store, "scattering": args.truth, "report": report, "say": options.say}
+        drawn = compile_plan(scene, effects(), choice)
+        truth = Truth(drawn.true_scene, size, budget, args.seed, **how)
         sweeping = Sweeping(wanted, choice, truth, args.curve, report, candidates)
         try:
             sweeping.run()

@@ -89,9 +89,14 @@ def _base(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # noqa:
     else:
         gloss = anisotropy.lobe(point.grain, point.alpha, n, v, l)
     fresnel = microfacet.f_schlick(v_dot_h, point.f0, point.f90)
-    above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
-    value = ((1 - above) * point.diffuse * (1 / PI) + fresnel * gloss) * n_dot_l
+    value = (lambert(point, v_dot_h) + fresnel * gloss) * n_dot_l
     return xp.where(lit, value, 0 * value)
+
+
+def lambert(point: MaterialPoint, v_dot_h: Array) -> Array:
+    """f of the Lambert base, 1/sr: what the dielectric's facet between v and l lets through, (1 − F_d)·c_diff/π."""
+    above = microfacet.f_schlick(v_dot_h, DIELECTRIC_F0 * point.specular, point.specular)
+    return (1 - above) * point.diffuse * (1 / PI)
 
 
 def specular_probability(point: MaterialPoint, n_dot_v: Array) -> Array:

@@ -53,6 +53,25 @@ def test_another_scene_size_or_version_is_told(saved):
     assert "mitsuba 2" in told[0]
 
 
+def test_a_reference_of_the_other_truth_is_refused(saved, tmp_path):
+    path, reference = saved
+    assert json.loads((path / "manifest.json").read_text())["truth"] == "single"
+    with pytest.raises(ReferenceFolderError, match=r"expected the truth 'multiscatter', got 'single'.*--truth"):
+        folder.load(path, SCENE, scattering="multiscatter")
+    folder.save(tmp_path / "other", SCENE, replace(reference, scattering="multiscatter"))
+    with pytest.raises(ReferenceFolderError, match="expected the truth 'single', got 'multiscatter'"):
+        folder.load(tmp_path / "other", SCENE)
+    assert folder.load(tmp_path / "other", SCENE, scattering="multiscatter").scattering == "multiscatter"
+
+
+def test_a_reference_from_before_there_was_a_choice_is_of_the_usual_truth(saved):
+    path, _ = saved
+    manifest = json.loads((path / "manifest.json").read_text())
+    del manifest["truth"]
+    (path / "manifest.json").write_text(json.dumps(manifest))
+    assert folder.load(path, SCENE).scattering == "single"
+
+
 def test_damage_is_named(saved, capfd):
     path, _ = saved
     file = path / "batch-0002.exr"

@@ -77,6 +77,7 @@ def test_what_the_key_depends_on():
         series(small(), (8, 12), 2),
         series(small(), SIZE, 3),
         series(small(), SIZE, 2, seed=1),
+        series(small(), SIZE, 2, scattering="multiscatter"),
     ]
     keys = {s.key for s in different}
     assert len(keys) == len(different)

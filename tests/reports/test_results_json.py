@@ -50,7 +50,7 @@ def test_document_has_the_stable_keys() -> None:
     document = json.loads(to_json(make_results()))
     assert list(document)[:3] == ["schema", "scene", "size"]
     assert set(document) >= {"schema", "device", "reference", "frame", "effects", "closure", "left_out", "nonfinite"}
-    assert set(document["reference"]) == {"spp", "batches", "seconds", "cached"}
+    assert set(document["reference"]) == {"spp", "batches", "seconds", "cached", "truth"}
     assert set(document["frame"]["time_ms"]) == {"median", "mad", "frames"}
     keys = {"effect", "terms", "knobs", "metrics", "time_ms", "share", "bake_ms", "bytes_per_pixel"}
     assert set(document["effects"][0]) == keys
