@@ -61,7 +61,7 @@ class Bench:
         at = FramePoints.of(renderer, self.truth)
         self.points = self.points or at.points  # the same object: what is known of it is remembered
         at = FramePoints(self.truth, at.captures, self.points)
-        found = against_bounces(renderer.plan, effect, self.truth, at)
+        found = against_bounces(effect, self.truth, at)
         return found, renderer, np.mean([capture.frame["indirect"] for capture in at.captures], axis=0)
 
     def exact(self, depth: int | None) -> np.ndarray:

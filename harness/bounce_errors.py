@@ -1,11 +1,13 @@
 """How much of the light that other surfaces scatter an effect recovers, bounce by bounce."""
 
+import numpy as np
+
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.recovery import recovery
 from lightmeter.realtime.graph import Plan
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.reports.results import BounceShare
-from lightmeter.sides import FramePoints, contribution
+from lightmeter.sides import FramePoints
 from lightmeter.stacking import mean_samples
 from lightmeter.truth import Truth
 
@@ -20,7 +22,7 @@ def bounce_errors(renderer: Renderer, truth: Truth, at: FramePoints) -> tuple[Bo
         at: the frame's points, at which the oracles are known.
     """
     effect = effect_for_bounces(renderer.plan)
-    return () if effect is None else against_bounces(renderer.plan, effect, truth, at)
+    return () if effect is None else against_bounces(effect, truth, at)
 
 
 def effect_for_bounces(plan: Plan) -> str | None:
@@ -28,10 +30,11 @@ def effect_for_bounces(plan: Plan) -> str | None:
     return next((name for name, (effect, _) in plan.effects.items() if effect.terms == ("indirect",)), None)
 
 
-def against_bounces(plan: Plan, effect: str, truth: Truth, at: FramePoints) -> tuple[BounceShare, ...]:
+def against_bounces(effect: str, truth: Truth, at: FramePoints) -> tuple[BounceShare, ...]:
     """What an effect gives of `indirect` against each number of bounces that the scene's paths have."""
     drawn = at.seen(()).truth  # on the surface that the frame has
     longest = truth.scene.max_depth
+    tested = mean_samples(np.stack([capture.frame["indirect"] for capture in at.captures]))
     found = []
     for bounces in BOUNCES:
         # A path of depth 2 is direct light: each bounce of other surfaces is one more.
@@ -39,8 +42,7 @@ def against_bounces(plan: Plan, effect: str, truth: Truth, at: FramePoints) -> t
             continue
         exact = drawn if bounces is None else drawn.to_depth(bounces + 2)
         batches = [exact.batch(at.points, n, "frame", at.spp, terms=("indirect",)) for n in range(truth.batches)]
-        tested, _ = contribution(plan, effect, at.captures, batches[0])
-        truths = [mean_samples(contribution(plan, effect, at.captures, batch)[1]) for batch in batches]
-        error = recovery(Comparison([mean_samples(tested)], truths))
+        truths = [mean_samples(batch.indirect) for batch in batches if batch.indirect is not None]
+        error = recovery(Comparison([tested], truths))
         found.append(BounceShare(effect, bounces, **vars(error)))
     return tuple(found)
