@@ -157,6 +157,12 @@ class Truth:
         here = [seen_emission(self._world, self.size, offset + 0.5) for offset in offsets]
         return everywhere - np.mean(here, axis=0, dtype=np.float64)
 
+    def mirrored_hits(self, points: SurfacePoints) -> np.ndarray:
+        """(2, H, W, 3): what a perfect mirror at each point would show, position and side's normal; 0: nothing."""
+        from lightmeter.groundtruth.mirrored import mirrored_hits
+
+        return mirrored_hits(self._world, points)
+
     def path_traced(self, spp: int, number: int) -> np.ndarray:
         """(H, W, 3): an image by the reference's path tracer, independent of the reference and of other numbers."""
         from lightmeter.groundtruth.reference import render_batch

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .graph import Step
+from .scattered_light import FrameScatteredLight
 from .shading import VISIBILITIES, ShadingPass
 from .stage import Stage
 
@@ -38,8 +39,9 @@ class Lighting:
                 return []
         actions: list[Action] = []
         if "scattered" in step.reads:
-            assert self._stage.scattered is not None
-            actions.append((f"{name} · lit frame", step.effect, self._stage.scattered.take))
+            scattered = self._stage.scattered
+            assert isinstance(scattered, FrameScatteredLight), "a frame that is being drawn"
+            actions.append((f"{name} · lit frame", step.effect, scattered.take))
         if shading.has_map:
             actions.append((f"{name} · map", step.effect, lambda: shading.own.draw(light)))
         target = self._buffers.get(step.writes[0], self._radiance)

@@ -27,11 +27,8 @@ class Fate:
 
 
 FATES = (
-    Fate(
-        "met",
-        "wrong hit or light",
-        "It met a surface: in the wrong place, or one whose light the frame has wrong itself.",
-    ),
+    Fate("wrong", "wrong hit", "It met a surface, but what it should have met the camera does not see."),
+    Fate("met", "other light", "What it should have met is in the picture: lit or seen otherwise, or just missed."),
     Fate("left", "left the screen", "It left the picture, or came nearer than the camera sees; it shows the fallback."),
     Fate("hidden", "hidden behind something", "It passed behind what is seen and met nothing after that."),
     Fate("open", "in the open", "It went on in sight, or its steps ended, and it met nothing."),

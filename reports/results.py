@@ -204,7 +204,8 @@ class RayError:
     Attributes:
         effect: which marches them.
         rmse: of the effect, in radiance, over all pixels.
-        parts: the rays' fate, as the effect declares its verdicts, to its part of the squared error.
+        parts: the rays' fate to its part of the squared error: the verdicts that the effect declares, and "wrong" for
+            those that met what they should not.
     """
 
     effect: str

@@ -1,5 +1,7 @@
 """What becomes of marched rays: each fate where it must be, and the squared error shared out among them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,9 +46,9 @@ def mirror_scene(*more: Shape) -> Scene:
     )
 
 
-def errors_of(scene: Scene, march: str):
+def errors_of(scene: Scene, march: str, thickness: float = 0.005):
     """The one effect's."""
-    knobs = {"march": march, "fallback": "none", "ambient": 0.0, "thickness": 0.005}
+    knobs = {"march": march, "fallback": "none", "ambient": 0.0, "thickness": thickness}
     choice = Choice(
         use=("screen_space_reflections",),
         without=("shadow_map", "supersampling"),
@@ -84,6 +86,25 @@ def test_what_lies_behind_something_is_hidden(march):
     content = ray_content((error,))
     assert content is not None and len(content["rows"][0]["cells"]) == len(FATES)
     assert ray_content(()) is None
+
+
+@pytest.mark.parametrize("march", ["linear", "hierarchical"])
+def test_a_hit_is_wrong_where_the_truth_is_not_in_the_picture(march):
+    """A mirror floor under a card: its front is seen and mirrored rightly, a thick surface is met in its stead.
+
+    A card that faces the camera shows its front above the floor, and the floor mirrors its front. A card that lies flat
+    shows its upper side; the floor mirrors the lower one, so that every ray that meets the card is wrong.
+    """
+    floor = Shape("floor", shapes.plane(6.0, 6.0), METAL)
+    upright = Shape("card", shapes.rectangle(1.0, 1.0), CLAY, at(0.0, 0.52, 0.0))
+    flat = Shape("card", shapes.plane(1.0, 1.0), replace(CLAY, double_sided=True), at(0.0, 0.6, 0.0))
+    view = Camera("camera", look_at((0.0, 1.6, 3.0), (0.0, 0.2, 0.0)), yfov=0.7, near=0.1, far=50.0)
+    shares = []
+    for card in (upright, flat):
+        scene = replace(mirror_scene(), shapes=(floor, card), camera=view)
+        error = errors_of(scene, march, thickness=0.2)
+        shares.append(error.parts["wrong"].pixels / (error.parts["wrong"].pixels + error.parts["met"].pixels))
+    assert shares[0] < 0.25 < 0.75 < shares[1]
 
 
 def test_an_effect_without_rays_has_no_verdict():

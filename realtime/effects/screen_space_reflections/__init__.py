@@ -20,9 +20,10 @@ def uniforms(scene: Scene, knobs: Knobs, light: Light | None) -> dict[str, Any]:
 
 def defines(knobs: Knobs) -> dict[str, object]:
     """Counts, and the functions that are chosen."""
-    counts = {name.upper(): int(knobs[name]) for name in ("samples", "steps", "refinements")}
-    chosen = {"MARCH": f"march_{knobs['march']}", "HIERARCHICAL": knobs["march"] == "hierarchical"}
-    return counts | chosen | {"UNMET": {"none": "vec3(0.0)", "ambient": "ambient_radiance"}.get(str(knobs["fallback"]))}
+    found: dict[str, object] = {name.upper(): int(knobs[name]) for name in ("samples", "steps", "refinements")}
+    found |= {"MARCH": f"march_{knobs['march']}", "HIERARCHICAL": knobs["march"] == "hierarchical"}
+    unmet = {"none": "vec3(0.0)", "ambient": "ambient_radiance"}
+    return found | {"UNMET": unmet.get(str(knobs["fallback"]))}
 
 
 EFFECT = Effect(
