@@ -1,10 +1,11 @@
 """How much of the light between surfaces each technique recovers: the tables and the picture of docs/second-bounce.md.
 
-python benchmarks/second_bounce.py SCENE [--size 96] [--spp 256] [--only sweep] [--picture FILE]
+python benchmarks/second_bounce.py SCENE [--size 96] [--spp 256] [--dark] [--only sweep] [--picture FILE]
 """
 
 import argparse
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.reports.results import BounceShare
 from lightmeter.scenes.load import load
+from lightmeter.scenes.model import Scene
 from lightmeter.sides import FramePoints
 from lightmeter.truth import Truth
 
@@ -49,8 +51,8 @@ FRAMES = 5
 class Bench:
     """One scene and its truths; every technique is judged at the same points."""
 
-    def __init__(self, scene: str, size: int, spp: int) -> None:
-        self.scene, self.size, self.device = load(scene), (size, size), Device()
+    def __init__(self, scene: Scene, size: int, spp: int) -> None:
+        self.scene, self.size, self.device = scene, (size, size), Device()
         self.truth = Truth(self.scene, self.size, Budget(spp=spp))
         self.points = None
 
@@ -138,10 +140,12 @@ def main() -> None:
     parser.add_argument("scene")
     parser.add_argument("--size", type=int, default=96)
     parser.add_argument("--spp", type=int, default=256)
+    parser.add_argument("--dark", action="store_true", help="without the scene's environment")
     parser.add_argument("--only", choices=("techniques", "sweep", "picture"))
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
-    bench = Bench(options.scene, options.size, options.spp)
+    scene = load(options.scene)
+    bench = Bench(replace(scene, environment=None) if options.dark else scene, options.size, options.spp)
     print(f"{fingerprint(bench.device.renderer, bench.device.version)}\n")
     for name, techniques in (("techniques", TECHNIQUES), ("sweep", SWEEP)):
         if options.only in (None, name):

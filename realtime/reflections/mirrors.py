@@ -7,6 +7,8 @@ import numpy as np
 from lightmeter.scenes.features import is_flat
 from lightmeter.scenes.model import Material, Scene, Shape
 
+from ..projection import viewer
+
 SMOOTH = 0.1
 """Roughness up to which a surface counts as a mirror: its lobe is about a degree wide."""
 
@@ -42,7 +44,7 @@ class FlatMirror:
 
 
 def flat_mirrors(scene: Scene) -> tuple[FlatMirror, ...]:
-    """The scene's flat mirrors, the largest first."""
+    """The scene's flat mirrors whose fronts face the camera, the largest first."""
     found = []
     for index, shape in enumerate(scene.shapes):
         if not is_smooth(shape) or not is_flat(shape):
@@ -53,7 +55,9 @@ def flat_mirrors(scene: Scene) -> tuple[FlatMirror, ...]:
         area = float(np.linalg.norm(faces, axis=1).sum())
         if area > 0:
             normal = faces.sum(axis=0) / np.linalg.norm(faces.sum(axis=0))
-            found.append(FlatMirror(index, np.append(normal, -normal @ a.mean(axis=0)), area))
+            plane = np.append(normal, -normal @ a.mean(axis=0))
+            if plane @ viewer(scene.camera) > 0:
+                found.append(FlatMirror(index, plane, area))
     return tuple(sorted(found, key=lambda mirror: -mirror.area))
 
 

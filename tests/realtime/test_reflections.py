@@ -230,3 +230,12 @@ def test_a_frame_keeps_what_it_has_lit_only_for_who_reads_it():
     found = counted(scene, pyramid)
     assert found[1]["textures"] == reads[1]["textures"] + levels + 1
     assert found[2] == reads[2] + levels + 1
+
+
+def test_a_mirror_seen_from_behind_is_not_drawn():
+    """A floor below the camera mirrors, one above shows its back."""
+    assert len(flat_mirrors(scene_of(FLOOR, BALL, view=VIEW))) == 1
+    high = replace(FLOOR, matrix=moved(y=3.0))
+    assert flat_mirrors(scene_of(high, BALL, view=VIEW)) == ()
+    plan = compile_plan(scene_of(high, BALL, view=VIEW, lights=(LAMP,)), effects(), Choice(use=("planar_mirror",)))
+    assert "planar_mirror" not in plan.effects and "towards the camera" in plan.why_absent("planar_mirror")

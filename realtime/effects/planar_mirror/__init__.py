@@ -9,7 +9,7 @@ from ...reflections.mirrors import SMOOTH, flat_mirrors
 
 def unneeded(scene: Scene) -> str:
     """Why the scene does not need it."""
-    return "" if flat_mirrors(scene) else f"no flat shape mirrors with a roughness of {SMOOTH} or less"
+    return "" if flat_mirrors(scene) else f"no flat shape of a roughness of {SMOOTH} or less mirrors towards the camera"
 
 
 EFFECT = Effect(

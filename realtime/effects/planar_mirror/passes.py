@@ -17,7 +17,7 @@ EXCHANGED = np.diag([-1.0, 1.0, 1.0, 1.0])
 
 
 class Passes:
-    """A view for each mirror that is turned to the viewer, drawn once a frame."""
+    """A view for each mirror, drawn once a frame."""
 
     def __init__(self, stage: Stage, knobs: Knobs, _folder) -> None:
         self._stage = stage
