@@ -3,8 +3,12 @@
 With one bounce it is lost, and rough metals are dark; with all bounces it goes on until it leaves the microsurface.
 """
 
+from typing import TYPE_CHECKING
+
 from lightmeter.scenes.errors import SceneError, nearest
-from lightmeter.scenes.model import Scene
+
+if TYPE_CHECKING:  # the command line's words are read without NumPy
+    from lightmeter.scenes.model import Scene
 
 SINGLE, MULTISCATTER = "single", "multiscatter"
 SCATTERINGS = {
@@ -13,7 +17,7 @@ SCATTERINGS = {
 }
 
 
-def check_scattering(name: str, scene: Scene) -> None:
+def check_scattering(name: str, scene: "Scene") -> None:
     """Raises unless there is such a truth, and the scene has it.
 
     Raises:

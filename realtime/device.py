@@ -131,6 +131,9 @@ class Device:
 
     def read(self, texture) -> np.ndarray:
         """(H, W, C) of a texture, row 0 at the top."""
+        # Mesa's llvmpipe draws in threads, and hands out what a texture held before the last draws where they went to a
+        # framebuffer that is no longer bound. OpenGL would have it wait by itself.
+        self.finish()
         dtype = {"f4": np.float32, "f1": np.uint8, "i4": np.int32, "u4": np.uint32}[texture.dtype]
         width, height = texture.size
         data = np.frombuffer(texture.read(alignment=1), dtype=dtype)

@@ -84,7 +84,15 @@ def test_a_run_that_is_stopped_keeps_its_batches(undisturbed, tmp_path, end):
     def finished() -> int:
         return len(list(store.glob("reference/*/batch-*.exr")))
 
-    process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    # A shell that runs tests in the background ignores SIGINT, and what it starts inherits that.
+    process = subprocess.Popen(
+        command,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     limit = time.monotonic() + 60
     while finished() < 2 and process.poll() is None and time.monotonic() < limit:
         time.sleep(0.002)
