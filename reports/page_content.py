@@ -15,6 +15,7 @@ from lightmeter.reports.metric_words import beside_the_mean, in_order, label, pr
 from lightmeter.reports.object_content import object_content
 from lightmeter.reports.percentages import percent_of
 from lightmeter.reports.ray_content import ray_content
+from lightmeter.reports.reasons import by_reason
 from lightmeter.reports.results import Effect, Metrics, Results, Timing
 from lightmeter.reports.shadow_content import shadow_content
 from lightmeter.reports.significant import show_number
@@ -43,7 +44,7 @@ def page_content(results: Results, shown: set[str]) -> dict[str, Any]:
         "effects": _effects(results, shown),
         "matrix": _matrix(results),
         "timing": _timing_chart(results),
-        "left_out": [{"what": item.what, "why": item.why} for item in results.left_out],
+        "left_out": [{"what": ", ".join(what), "why": why} for why, what in by_reason(results.left_out).items()],
         "not_approximated": terms_with_meaning(results.not_approximated),
         "notes": list(results.notes),
         "reference": _reference(results),

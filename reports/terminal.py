@@ -18,6 +18,7 @@ from lightmeter.reports.metric_words import TAILS, beside_the_mean, error_phrase
 from lightmeter.reports.object_content import by_share
 from lightmeter.reports.percentages import in_percent, percent_of
 from lightmeter.reports.ray_content import ray_line
+from lightmeter.reports.reasons import by_reason
 from lightmeter.reports.results import Attribution, ObjectError, Results
 from lightmeter.reports.shadow_content import shadow_line
 from lightmeter.reports.shown_names import printable
@@ -63,7 +64,7 @@ def comparison(results: Results) -> Group:
     if results.closure:
         statement = closure_statement(results.closure)
         parts.append(Text(statement.sentence, style=_STYLES[statement.verdict]))
-    parts += [reason("left out", item.what, item.why) for item in results.left_out]
+    parts += [reason("left out", ", ".join(what), why) for why, what in by_reason(results.left_out).items()]
     if results.not_approximated:
         parts.append(reason("not approximated", ", ".join(results.not_approximated)))
     parts += [reason("note", note) for note in results.notes]

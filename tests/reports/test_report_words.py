@@ -92,6 +92,18 @@ def test_terminal_reads_no_markup_in_names() -> None:
     assert "[/]: [bold]" in text
 
 
+def test_what_is_left_out_for_one_reason_is_one_line() -> None:
+    left_out = (
+        LeftOut("phong", "the scene has no lights"),
+        LeftOut("gtao", "takes part where it is asked for: --use gtao"),
+        LeftOut("pcss", "the scene has no lights"),
+        LeftOut("ssao", "takes part where it is asked for: --use ssao"),
+    )
+    text = printed(comparison(Results("x", (1, 1), Frame({}), left_out=left_out)))
+    assert "left out: phong, pcss: the scene has no lights" in text
+    assert "left out: gtao, ssao: takes part where it is asked for: --use EFFECT" in text
+
+
 def test_metric_table() -> None:
     assert "0.500" in printed(metric_table({"rmse": Measurement(0.5, how="one image")}))
 
