@@ -55,10 +55,13 @@ class Design:
     def _drawn(self, n: int) -> Inputs:
         found = []
         for argument in self.arguments:
-            assert argument.draw is not None
-            x = np.reshape(argument.draw(self._rng, n), (-1, n))
+            x = self._draw(argument, n)
             found.append(np.where(self._rng.random(n) < 0.15, self._boundary(argument, x), x))
         return found
+
+    def _draw(self, argument: Argument, n: int) -> np.ndarray:
+        assert argument.draw is not None
+        return np.reshape(argument.draw(self._rng, n), (-1, n))
 
     def _boundary(self, argument: Argument, x: np.ndarray) -> np.ndarray:
         if not len(argument.boundary):
@@ -74,8 +77,7 @@ class Design:
             return self._direction(i, n, inputs)
         values = EXTREMES.get(kind, ())
         if not values:
-            drawn = np.reshape(self.arguments[i].draw(rng, n), (-1, n))
-            return self._boundary(self.arguments[i], drawn)
+            return self._boundary(self.arguments[i], self._draw(self.arguments[i], n))
         picked = np.array(values)[rng.integers(0, len(values), (size, n))]
         if kind in ("alpha", "roughness"):
             decades = 10 ** rng.uniform(-6, 0, (size, n))

@@ -92,7 +92,8 @@ def marks_of(arguments: list[Argument], inputs: list[np.ndarray]) -> Marks:
         mark("cosine ≤ 0", members, cosine <= 0)
         mark("cosine > 1", members, (cosine > 1) & (len(members) == 1))
     declared = strays == 0
-    plain = declared & ~np.any([m for r, m in found.items() if not r.startswith("α")] or [~declared], axis=0)
+    extreme = [mask for regime, mask in found.items() if not regime.startswith("α")]
+    plain = declared & ~np.any([np.zeros_like(declared), *extreme], axis=0)
     found["ordinary"] = plain
     least = np.min([np.abs(c) for _, c in cosines], axis=0) if cosines else None
     return Marks({r: found[r] for r in REGIMES if r in found}, declared, alpha, least)

@@ -134,7 +134,7 @@ class Stress:
     def _breed(self, inputs: Inputs, verdict: Verdict, marks: Marks) -> None:
         """The eight worst lanes of each regime so far are the next parents."""
         pool, worth = inputs, verdict.relative + 1e9 * (verdict.nan | verdict.inf)
-        chosen: set[int] = set()
+        chosen = set(np.argsort(-worth)[:8].tolist())
         for mask in marks.lanes.values():
             lanes = np.flatnonzero(mask)
             chosen |= set(lanes[np.argsort(-worth[lanes])[:8]].tolist())
