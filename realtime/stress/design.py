@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ..shared_twins import above, apart, near_the_mirror
+from ..shared_twins import apart, near_the_mirror
 from ..twin import Argument, Twin
 from .kinds import EXTREMES, UNIT_SLACK, domain_of
 
-DENSITIES = (above, apart, near_the_mirror)
+DENSITIES = (apart, near_the_mirror)
 """Arrangements that only say where to look; the others are relations that the function may rely on."""
 
 Inputs = list[np.ndarray]

@@ -8,7 +8,8 @@ from ..twin import Twin
 
 EPS = float(np.finfo(np.float32).eps)
 LARGEST = float(np.finfo(np.float32).max)
-SMALLEST = {"fp32": float(np.finfo(np.float32).smallest_normal)}
+SMALLEST = 1e-36
+"""A smaller result is judged as if it were as large: its factors lie beyond what float32 holds with all digits."""
 HALF_NORMAL = 2.0**-14
 """The smallest number that a half float, or a float of 11 or 10 bits, holds with its full digits."""
 OF_CONSTANTS = 1e-3
@@ -59,11 +60,12 @@ def undecided(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
     return lanes
 
 
-def judge(twin: Twin, inputs, got, exact, smallest: float = SMALLEST["fp32"], largest: float = LARGEST) -> Verdict:
+def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST) -> Verdict:
     """The verdict over lanes.
 
     Args:
-        smallest, largest: of the format that the results are held in.
+        signed: the results that are negative by rights.
+        smallest: of the format that the results are held in.
     """
     n = inputs[0].shape[1]
     relative, absolute = np.zeros(n), np.zeros(n)
@@ -77,7 +79,9 @@ def judge(twin: Twin, inputs, got, exact, smallest: float = SMALLEST["fp32"], la
         inf |= sound & np.isinf(g).any(axis=0)
         size = np.max(np.abs(np.where(np.isfinite(e), e, 0)), axis=0)
         allowed = twin.roundings * EPS * (size + twin.cancels)
-        negative |= sound & ((g < 0) & (e >= 0) & (-g > np.maximum(allowed, smallest))).any(axis=0)
+        negative |= (
+            sound & (slot not in signed) & ((g < 0) & (e >= 0) & (-g > np.maximum(allowed, smallest))).any(axis=0)
+        )
         with np.errstate(invalid="ignore", over="ignore"):
             error = np.max(np.abs(g - e), axis=0)
         error = np.where(sound & np.isfinite(error) & ~unclear, error, 0)

@@ -31,6 +31,11 @@ declared ends: nothing is known of what lies beyond."""
 UNIT_SLACK = 1e-6
 """How far from 1 a unit vector's length may be: a few roundings of float32."""
 
+DRAWS = 1 << 15
+"""From which a range is told: its ends are missed by about as small a part."""
+SMALL = 5e-3
+"""A share's or a reflectance's draw begins at 0, and its least value lies below this."""
+
 COSINES = ("cosine", "_dot_", "cos_")
 DISTANCES = ("depth_difference", "distance", "distance_to", "radius", "offset", "light_position", "point", "to_centre")
 INTENSITIES = ("radiance", "linear", "scattered", "mirrored", "sky", "ground")
@@ -54,26 +59,19 @@ class Domain:
 def domain_of(argument: Argument) -> Domain:
     """The kind and the declared range."""
     assert argument.draw is not None
-    drawn = np.asarray(argument.draw(np.random.default_rng(0), 2048))
     if argument.draw is direction:
         return Domain(argument.kind or "direction", 1 - UNIT_SLACK, 1 + UNIT_SLACK)
-    low, high = float(drawn.min()), float(drawn.max())
-    # Draws of 2,048 miss a range's ends by about a thousandth.
-    slack = 1e-2 * (high - low) if low <= 0 else 1e-2 * low
-    kind = argument.kind or _kind(argument, low, high)
-    ends = [low - (0 if low >= 0 else slack), high * 1.01]
-    if low > 0:
-        ends[0] = low / 1.01
-    if kind in ("share", "colour", "roughness") and low >= 0:
-        ends[0] = 0.0
-    if high <= 1 and high > 0.9:
-        ends[1] = 1.0
-    return Domain(kind, *ends)
+    drawn = np.asarray(argument.draw(np.random.default_rng(0), DRAWS))
+    within = np.concatenate([drawn.ravel(), *(np.ravel(value) for value in argument.boundary)])
+    kind = argument.kind or _kind(argument, drawn)
+    # A boundary may lie beyond a range, as 1.02 for a cosine, and is then no part of what is declared.
+    bounds = (0.0, 1.0) if kind in ("share", "colour", "cosine") and drawn.min() >= 0 else (-np.inf, np.inf)
+    return Domain(kind, max(float(within.min()), bounds[0]), min(float(within.max()), bounds[1]))
 
 
-def _kind(argument: Argument, low: float, high: float) -> str:
-    name = argument.name
-    if argument.type in ("int", "bool", "mat4"):
+def _kind(argument: Argument, drawn: np.ndarray) -> str:
+    name, low, high = argument.name, drawn.min(), drawn.max()
+    if argument.type in ("int", "bool", "mat4") or (drawn == np.round(drawn)).all():
         return "fixed"
     if name == "alpha" or (name == "k" and high <= 1):
         return "alpha"
@@ -87,6 +85,6 @@ def _kind(argument: Argument, low: float, high: float) -> str:
         return "cosine"
     if name in DISTANCES:
         return "distance"
-    if low >= 0 and 0.9 < high <= 1:
+    if 0 <= low < SMALL and 0.9 < high <= 1:
         return "colour" if argument.type == "vec3" else "share"
     return "number"

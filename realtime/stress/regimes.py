@@ -70,7 +70,7 @@ def marks_of(arguments: list[Argument], inputs: list[np.ndarray]) -> Marks:
         elif domain.kind == "cosine":
             cosines.append((own, x[0]))
         elif domain.kind in ("share", "colour"):
-            mark("black or white", own, ((x == 0) | (x == 1)).any(axis=0))
+            mark("black or white", (), ((x == 0) | (x == 1)).any(axis=0))
             mark("beyond 0…1", own, ((x < 0) | (x > 1)).any(axis=0))
         elif domain.kind == "index":
             mark("index near 1", own, ((np.abs(x - 1) < 1e-3) & (x >= 1)).any(axis=0))
@@ -87,10 +87,10 @@ def marks_of(arguments: list[Argument], inputs: list[np.ndarray]) -> Marks:
             mark("denormal", own, ((x != 0) & (np.abs(x) < SMALLEST_NORMAL)).any(axis=0))
     cosines += _between_directions(arguments, domains, inputs, mark)
     for members, cosine in cosines:
-        mark("grazing", members, (cosine > 0) & (cosine < GRAZING))
+        mark("grazing", members, (cosine >= SMALLEST_NORMAL) & (cosine < GRAZING))
         mark("head-on", members, (cosine > HEAD_ON) & (cosine <= 1))
         mark("cosine ≤ 0", members, cosine <= 0)
-        mark("cosine > 1", members, (cosine > 1) & (len(members) == 1))
+        mark("cosine > 1", members, (cosine > 1) & (len(members) > 0))
     declared = strays == 0
     extreme = [mask for regime, mask in found.items() if not regime.startswith("α")]
     plain = declared & ~np.any([np.zeros_like(declared), *extreme], axis=0)
@@ -118,6 +118,6 @@ def _between_directions(arguments, domains, inputs, mark) -> list[tuple[tuple[in
     for a in places:
         for b in places:
             if a < b:
-                mark("opposite", (a, b), (unit[a] * unit[b]).sum(axis=0) < -HEAD_ON)
+                mark("opposite", (), (unit[a] * unit[b]).sum(axis=0) < -HEAD_ON)
     normal = next((i for i in places if arguments[i].name in ("n", "normal")), places[0])
-    return [((normal, i), (unit[normal] * unit[i]).sum(axis=0)) for i in places if i != normal]
+    return [((), (unit[normal] * unit[i]).sum(axis=0)) for i in places if i != normal]

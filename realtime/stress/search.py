@@ -12,7 +12,7 @@ from ..glsl_on_device import FunctionOnDevice
 from ..twin import Twin
 from .design import Design, Inputs
 from .findings import FAULTS, FORMATS, Cell, Example, Stressed
-from .judging import HALF_NORMAL, LARGEST, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
+from .judging import HALF_NORMAL, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
 from .regimes import Marks, marks_of
 
 MOST_DIGITS = 7.2
@@ -48,7 +48,7 @@ class Stress:
         self._unsafe: dict[str, float] = {}
         self._least: dict[str, float] = {}
         self._largest: dict[str, Example] = {}
-        self._signed = False
+        self._signed: set[int] = set()
 
     def run(self, designed: int = 6144, generations: int = 6, children: int = 1024) -> Stressed:
         """The findings, in all formats.
@@ -58,9 +58,11 @@ class Stress:
             generations: steps of the search.
             children: inputs of each step.
         """
-        inputs = _joined(self.design.ordinary(designed // 3), self.design.extremes(designed))
+        usual = self.design.ordinary(designed // 3)
+        found = exact_results(self.twin, usual)
+        self._signed = {slot for slot in judged_slots(self.twin) if (found[slot] < 0).any()}
+        inputs = _joined(usual, self.design.extremes(designed))
         exact = exact_results(self.twin, inputs)
-        self._signed = any((exact[slot] < 0).any() for slot in judged_slots(self.twin))
         self._take("fp32", inputs, exact)
         for _ in range(generations):
             fresh = self.design.extremes(children // 4)
@@ -103,9 +105,7 @@ class Stress:
         return self._function(inputs, TARGETS[form])
 
     def _verdict(self, form: str, inputs: Inputs, got, exact) -> Verdict:
-        if form == "fp32":
-            return judge(self.twin, inputs, got, exact, SMALLEST["fp32"], LARGEST)
-        return judge(self.twin, inputs, got, exact, HALF_NORMAL, 65504.0)
+        return judge(self.twin, inputs, got, exact, self._signed, SMALLEST if form == "fp32" else HALF_NORMAL)
 
     def _take(self, form: str, inputs: Inputs, exact: list[np.ndarray] | None = None) -> None:
         """Evaluate lanes, and keep the worst of each regime."""
