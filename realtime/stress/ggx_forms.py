@@ -14,6 +14,7 @@ from ..twin import Argument, Twin, direction, logarithmic
 
 FORMS = ("ggx_textbook", "ggx_cross")
 ARITHMETIC = {"fp32": {}, "fp16": {"HALF": True}, "fp16, denormals flushed": {"HALF": True, "FLUSH": True}}
+UP = np.array([[0.0], [0.0], [1.0]])
 WITHIN = 3.0
 """Half vectors up to this many α from the normal: there D is down to a hundredth of its peak."""
 
@@ -57,8 +58,7 @@ def curves(device: Device, alphas: Sequence[float], lanes: int = 1024, seed: int
             kept, peak = [], []
             for alpha in alphas:
                 n, h = _about(rng, alpha, lanes)
-                errors = _errors(function, n, h, alpha)
-                kept.append(_digits(errors))
+                kept.append(_digits(_errors(function, n, h, alpha)))
                 peak.append(
                     _digits(_errors(function, n[:, :1] * 0 + [[0], [0], [1]], n[:, :1] * 0 + [[0], [0], [1]], alpha))
                 )
@@ -85,3 +85,11 @@ def _errors(function: FunctionOnDevice, n: np.ndarray, h: np.ndarray, alpha: flo
 
 def _digits(errors: np.ndarray) -> float:
     return float(np.clip(-np.log10(np.maximum(errors.max(), 1e-8)), 0, 7.2))
+
+
+def least_alpha(curve: Curve, digits: float, of_peak: bool = False) -> float:
+    """The smallest α of the curve from which up as many digits are kept; infinite where they never are."""
+    kept = curve.peak if of_peak else curve.digits
+    lost = [i for i, d in enumerate(kept) if d < digits]
+    start = lost[-1] + 1 if lost else 0
+    return curve.alphas[start] if start < len(kept) else float("inf")
