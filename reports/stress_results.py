@@ -27,6 +27,8 @@ SHORT = {
 }
 """Regimes as a terminal's columns call them."""
 
+WELL_KEPT = 5.0
+"""Digits from which up nothing is said of a loss."""
 OWN_LOSS = 1.0
 """Digits lost beyond what the inputs' rounding takes, from which on a loss is called the arithmetic's own."""
 
@@ -57,7 +59,9 @@ def command(name: str, example: Example) -> str:
 def inherent(cell: Cell) -> bool:
     """Whether the loss lies in the inputs: moving them by half a rounding changes the exact result as much."""
     example = cell.example
-    return not cell.fault and example is not None and example.digits > example.attainable - OWN_LOSS
+    if cell.fault or example is None or cell.digits >= WELL_KEPT:
+        return False
+    return example.digits > example.attainable - OWN_LOSS
 
 
 def shown(cell: Cell) -> str:

@@ -56,13 +56,19 @@ def input_table(name: str, examples: dict[str, Example]) -> Table:
 
 def _grid(results: StressResults, regimes: list[str], form: str) -> Table:
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(title=f"{form}: {FORMATS[form]}", title_justify="left", box=None, padding=(0, 1, 0, 0))
     table.add_column("function", no_wrap=True)
     for regime in regimes:
         table.add_column(SHORT[regime], no_wrap=True, justify="right", min_width=3)
+    owner = ""
     for function in results.functions:
-        table.add_row(function.name, *(_cell(function.cells[form].get(regime)) for regime in regimes))
+        before, owner = owner, function.name.partition("/")[0]
+        if owner != before:
+            table.add_row(Text(owner, style="bold"))
+        name = "  " + function.name.partition("/")[2]
+        table.add_row(name, *(_cell(function.cells[form].get(regime)) for regime in regimes))
     return table
 
 

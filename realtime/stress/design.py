@@ -101,7 +101,8 @@ class Design:
         tilt = 10 ** rng.uniform(-8, -1, n) * rng.choice([-1.0, 1.0, 1.0], n)
         choices = [
             0 * v,
-            v * 10 ** rng.uniform(-20, 2, n),
+            v * 10 ** rng.uniform(-20, -3, n),
+            v * 10 ** rng.uniform(-2, 1, n),
             v * (1 + 10 ** rng.uniform(-5, -1, n) * rng.choice([-1, 1], n)),
             axis,
             _unit(to + along * tilt),

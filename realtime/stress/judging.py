@@ -8,8 +8,9 @@ from ..twin import Twin
 
 EPS = float(np.finfo(np.float32).eps)
 LARGEST = float(np.finfo(np.float32).max)
-SMALLEST = 1e-36
-"""A smaller result is judged as if it were as large: its factors lie beyond what float32 holds with all digits."""
+SMALLEST = 1e-24
+"""A smaller result is judged as if it were as large: even under a sun 10¹² times as bright as what is seen beside it
+no frame shows it, and its factors lie near the end of what float32 holds with all digits."""
 HALF_NORMAL = 2.0**-14
 """The smallest number that a half float, or a float of 11 or 10 bits, holds with its full digits."""
 OF_CONSTANTS = 1e-3

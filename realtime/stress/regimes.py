@@ -9,6 +9,7 @@ from .kinds import UNIT_SLACK, Domain, domain_of
 
 SMALLEST_NORMAL = float(np.finfo(np.float32).smallest_normal)
 GRAZING = 1e-3
+NO_LENGTH = 1e-3
 HEAD_ON = 1 - 1e-6
 ALPHA_EDGES = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1)
 
@@ -21,7 +22,7 @@ REGIMES = {
     "cosine > 1": "a cosine above 1, as rounding makes it",
     "opposite": "two directions opposite to within 1e-6",
     "not unit": "a direction whose length is not 1",
-    "zero vector": "a direction of length 0",
+    "zero vector": f"a direction of length 0, or below {NO_LENGTH:g}",
     "black or white": "a reflectance or share of 0 or 1",
     "beyond 0…1": "a reflectance or share outside 0…1",
     "index near 1": "an index of refraction within 1e-3 of 1",
@@ -81,8 +82,8 @@ def marks_of(arguments: list[Argument], inputs: list[np.ndarray]) -> Marks:
             mark("huge", own, size > 1e5)
         elif domain.kind == "direction":
             size = np.linalg.norm(x, axis=0)
-            mark("not unit", own, outside[i] & (size > 0))
-            mark("zero vector", own, size == 0)
+            mark("not unit", own, outside[i] & (size >= NO_LENGTH))
+            mark("zero vector", own, size < NO_LENGTH)
         if domain.kind != "fixed":
             mark("denormal", own, ((x != 0) & (np.abs(x) < SMALLEST_NORMAL)).any(axis=0))
     cosines += _between_directions(arguments, domains, inputs, mark)
