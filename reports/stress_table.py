@@ -18,7 +18,7 @@ FEW = 3.0
 
 
 def stress_tables(results: StressResults, form: str = "fp32") -> Group:
-    """The grid of function and regime, what its columns mean, safe domains, and where to look first."""
+    """The grid of function and regime, what its columns mean, and safe domains."""
     from rich.console import Group
     from rich.text import Text
 
@@ -26,7 +26,6 @@ def stress_tables(results: StressResults, form: str = "fp32") -> Group:
     legend = "; ".join(f"{SHORT[r]}: {REGIMES[r]}" for r in regimes)
     parts = [_grid(results, regimes, form), Text(f"Digits kept (~: lost to the inputs' own rounding). {legend}")]
     parts += [Text()] + [Text(line) for f in results.functions if (line := safe_domain(f))]
-    parts += [Text()] + [line for f in results.functions for line in _faults(f, form)]
     return Group(*parts)
 
 
@@ -87,13 +86,13 @@ def _cell(cell) -> Text:
     )
 
 
-def _faults(function: Stressed, form: str) -> list[Text]:
-    from rich.text import Text
-
+def fault_lines(results: StressResults, form: str = "fp32") -> list[str]:
+    """For each function and regime that is not finite or wrongly negative: how often, and the command that shows it."""
     lines = []
-    for regime, cell in function.cells[form].items():
-        for fault, example in cell.faults.items():
-            count = f"{cell.counts[fault]} of {cell.lanes}"
-            lines.append(Text(f"✕ {function.name}, {regime}: {fault} in {count}: {command(function.name, example)}"))
-            break
+    for function in results.functions:
+        for regime, cell in function.cells[form].items():
+            if cell.fault:
+                count = f"{cell.fault} at {cell.counts[cell.fault]} of {cell.lanes} inputs"
+                again = command(function.name, cell.faults[cell.fault])
+                lines.append(f"✕ {function.name}, {regime}: {count}: {again}")
     return lines

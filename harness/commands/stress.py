@@ -67,10 +67,12 @@ def _all(chosen: list, args: argparse.Namespace) -> int:
         sys.stdout.write(to_json(results))
         print(f"report: {page}", file=sys.stderr)
         return 0
-    from lightmeter.reports.stress_table import stress_tables
+    from lightmeter.reports.stress_table import fault_lines, stress_tables
     from lightmeter.terminal import console
 
     console().print(stress_tables(results))
+    for line in fault_lines(results):  # whole, so that the command can be copied
+        print(line)
     print(f"report: {page}")
     return 0
 
