@@ -56,13 +56,13 @@ def run(args: argparse.Namespace) -> int:
     seconds = rules.seconds if args.seconds is None else args.seconds
     limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
     store = None if args.no_store else Store(say=options.say)
-    pairs = plan_cases(limits, config, args.scenes, store, candidates)
+    pairs = plan_cases(limits, config, args.scenes, store, candidates) if limits else []
     if args.update:
         return _update(pairs, rules.baseline, confidence, seconds)
     start = time.perf_counter()
     trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        verdicts = decide(trials, seconds, report)
+        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, report)]
     code = _exit_code(verdicts, args.strict)
     document = _document(verdicts, code, confidence, time.perf_counter() - start)
     if folder is not None:
@@ -97,6 +97,15 @@ def _on_candidates(rules, asked):
     if not limits:
         raise UsageError(f"{rules.limits[0].place}: none of the limits is on a frame, which is what a candidate has")
     return tuple(limits), tuple(known.values())
+
+
+def _stress(entries, args: argparse.Namespace, report) -> list:
+    """The verdicts on shading functions; none where the run is narrowed to scenes or to a candidate."""
+    if not entries or args.scenes or words.candidates(args, args.config):
+        return []
+    from lightmeter.stress_limits import judge_all
+
+    return judge_all(entries, report)
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

@@ -49,6 +49,11 @@ class Marks:
     alpha: np.ndarray | None
     cosine: np.ndarray | None
 
+    @property
+    def usual(self) -> np.ndarray:
+        """Every argument in its declared range, α aside, which may be smaller (n,)."""
+        return np.any([self.declared, *(mask for r, mask in self.lanes.items() if r.startswith("α"))], axis=0)
+
 
 def marks_of(arguments: list[Argument], inputs: list[np.ndarray]) -> Marks:
     """The regimes of lanes, (components, n) for each argument."""

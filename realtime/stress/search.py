@@ -2,8 +2,10 @@
 
 import math
 import zlib
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -19,6 +21,8 @@ MOST_DIGITS = 7.2
 """−log₁₀ of half of float32's ε."""
 KEPT = 0.01
 """The relative error that a safe domain keeps."""
+Regime = Callable[[Marks], np.ndarray]
+NONE: Mapping[str, Regime] = MappingProxyType({})
 TARGETS = {"fp32": "f4", "fp16": "f2", "r11g11b10f": "r11g11b10f", "mediump": "f2"}
 
 
@@ -34,14 +38,14 @@ class Stress:
         name: what the findings are called.
         folder: where the function's file lies.
         seed: names the random numbers; the function's name goes into it.
-        text: in place of the file's own.
+        asked: further regimes that the findings are to have, by name: of the marks a mask (n,).
     """
 
     def __init__(
-        self, device: Device, name: str, twin: Twin, folder: Path, seed: int = 0, text: str | None = None
+        self, device: Device, name: str, twin: Twin, folder: Path, seed: int = 0, asked: Mapping[str, Regime] = NONE
     ) -> None:
-        self.name, self.twin = name, twin
-        self._function = FunctionOnDevice(device, twin, folder, text)
+        self.name, self.twin, self._asked = name, twin, asked
+        self._function = FunctionOnDevice(device, twin, folder)
         self.design = Design(twin, np.random.default_rng((seed, zlib.crc32(name.encode()))))
         self._cells: dict[str, dict[str, Cell]] = {}
         self._elite: Inputs | None = None
@@ -114,7 +118,7 @@ class Stress:
         verdict = self._verdict(form, inputs, got, exact)
         marks = marks_of(self.design.arguments, inputs)
         cells = self._cells.setdefault(form, {})
-        for regime, mask in marks.lanes.items():
+        for regime, mask in {**marks.lanes, **{name: of(marks) for name, of in self._asked.items()}}.items():
             if not mask.any():
                 continue
             cell = cells.setdefault(regime, Cell())
@@ -145,7 +149,7 @@ class Stress:
         """The largest errors of the declared domain, and what α and cosine keep 1 %."""
         broken = verdict.nan | verdict.inf | (verdict.relative > KEPT)
         alpha, cosine = marks.alpha, marks.cosine
-        usual = marks.declared if alpha is None else marks.declared | _only_alpha(marks)
+        usual = marks.usual
         if alpha is not None:
             self._safe("α", alpha, broken & usual & (True if cosine is None else cosine >= 1e-3), usual)
         if cosine is not None:
@@ -186,10 +190,6 @@ class Stress:
         for cell, example in zip(cells, kept, strict=False):
             cell.worst = example
         self._largest = dict(zip(self._largest, kept[len(cells) :], strict=True))
-
-
-def _only_alpha(marks: Marks) -> np.ndarray:
-    return np.any([mask for regime, mask in marks.lanes.items() if regime.startswith("α")], axis=0)
 
 
 def _joined(first: Inputs, second: Inputs) -> Inputs:

@@ -48,3 +48,32 @@ def test_what_is_wrong_is_said(refused):
     assert "given twice" in refused("stress", "--function", "d_ggx", "--input", "alpha=1", "alpha=1")
     assert "several functions" in refused("stress", "--function", "reflected", "--input", "alpha=1")
     assert "--seed" in refused("stress", "--seed", "-1")
+
+
+def test_the_gate_holds_limits_on_it(run, tmp_path):
+    held = '[[stress]]\nfunction = "shared/d_ggx"\nmetric = "digits"\nmin = 3\nalpha = 0.002\n'
+    none = '[[stress]]\nfunction = "shared/d_ggx"\nmetric = "faults"\nmax = 0\n'
+    (tmp_path / "lightmeter.toml").write_text(held + none)
+    found = run("gate", "--json")
+    assert found.code == 0, found.err
+    assert [v["status"] for v in found.json["verdicts"]] == ["PASS", "PASS"]
+    # D's peak leaves a half float's range below α = 2.2e-3.
+    (tmp_path / "lightmeter.toml").write_text(held + 'format = "fp16"\n')
+    failed = run("gate")
+    assert failed.code == 1 and "0 PASS, 1 FAIL" in failed.out
+    (verdict,) = run("gate", "--json").json["verdicts"]
+    words = shlex.split(re.search(r"`lightmeter (.*)`", verdict["message"])[1])
+    assert float(next(w for w in words if w.startswith("alpha=")).removeprefix("alpha=")) < 2.3e-3
+    assert run(*words, "--json").json["fp16"]["digits"] < 3
+
+
+def test_stress_limits_that_make_no_sense(refused, tmp_path):
+    def said(text: str) -> str:
+        (tmp_path / "lightmeter.toml").write_text(f"[[stress]]\n{text}\n")
+        return refused("gate")
+
+    assert 'metric = "digits" with min' in said('metric = "digits"\nmax = 1')
+    assert "not on both" in said('metric = "faults"\nmax = 0\neffect = "lambert"\nfunction = "lambert"')
+    assert "did you mean 'grazing'" in said('metric = "faults"\nmax = 0\nregime = "grasing"\nfunction = "lambert"')
+    assert "reaches no input" in said('metric = "digits"\nmin = 1\nalpha = 0.1\nfunction = "lambert"')
+    assert "did you mean 'lambert'" in said('metric = "faults"\nmax = 0\neffect = "lamberd"')
