@@ -5,6 +5,7 @@ import pytest
 
 from lightmeter.realtime.shared_twins import alpha, color, cosine, stack, towards
 from lightmeter.realtime.stress.findings import Stressed
+from lightmeter.realtime.stress.ggx_forms import FORMS, curves, least_alpha
 from lightmeter.realtime.stress.naming import named, of_effects, subjects
 from lightmeter.realtime.stress.search import Stress
 from lightmeter.realtime.twin import Argument, Twin, uniform
@@ -145,3 +146,22 @@ def test_directions_that_are_no_units_are_told_from_grazing_ones(device):
     assert marks["zero vector"].tolist() == [False, False, True]
     both = marks_of([color("f0"), alpha("alpha")], [stack(*[np.array([2.0])] * 3), np.array([[1e-6]])]).lanes
     assert not both["α ≥ 1e-06"].any() and not both["beyond 0…1"].any()
+
+
+def test_the_textbooks_ggx_loses_two_digits_a_decade_and_the_cross_product_one(device):
+    """Near the peak the textbook knows 1 − (n·h)² to ε, of a size of α²; |n × h| is known to ε, of a size of α."""
+    found = {(c.form, c.arithmetic): c for c in curves(device, [1e-3, 1e-2, 1e-1], lanes=1024)}
+    textbook_digits, cross_digits = (np.array(found[form, "fp32"].digits) for form in FORMS)
+    assert np.diff(textbook_digits) == pytest.approx([2, 2], abs=0.6)
+    assert np.diff(cross_digits) == pytest.approx([1, 1], abs=0.4)
+    assert least_alpha(found["ggx_textbook", "fp32"], 2.0) == 1e-2
+    assert least_alpha(found["ggx_cross", "fp32"], 4.0) == 1e-3
+
+
+def test_filaments_mobile_clamp_is_where_a_flushed_half_float_keeps_the_peak(device):
+    """(α·n·h)² is a normal half float, 2⁻¹⁴, from α = 2⁻⁷ up: roughness 0.0884."""
+    below, above = 0.0883**2, 0.0885**2
+    found = {c.arithmetic: c for c in curves(device, [below, above], lanes=16) if c.form == "ggx_cross"}
+    flushed, kept = found["fp16, denormals flushed"], found["fp16"]
+    assert flushed.peak[0] < 1 < 2 < flushed.peak[1]
+    assert kept.peak[0] > 2
