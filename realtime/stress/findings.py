@@ -21,7 +21,7 @@ class Example:
         got, exact: the function's results (out arguments behind the result), and float64's of the same inputs.
         relative, absolute: the error; relative is over the result's largest component.
         digits: −log₁₀ of the relative error, 0 to 7.2.
-        attainable: the digits that one rounding of the inputs leaves of the exact result: what is lost beyond
+        attainable: the digits that half a rounding of the inputs leaves of the exact result: what is lost beyond
             is the arithmetic's own.
     """
 

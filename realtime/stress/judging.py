@@ -13,6 +13,8 @@ SMALLEST = 1e-24
 no frame shows it, and its factors lie near the end of what float32 holds with all digits."""
 HALF_NORMAL = 2.0**-14
 """The smallest number that a half float, or a float of 11 or 10 bits, holds with its full digits."""
+HALF_STEP = 2.0**-11
+"""Half a rounding of a half float, relative."""
 OF_CONSTANTS = 1e-3
 """A result below this part of the constants it is a difference of (`Twin.cancels`) is judged as if it were as large."""
 
@@ -91,8 +93,8 @@ def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SM
     return Verdict(relative, absolute, nan, inf, negative)
 
 
-def attainable(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
-    """(n,) relative change of the exact result when each component of the inputs moves by half a float32 rounding."""
+def attainable(twin: Twin, inputs: list[np.ndarray], step: float = EPS / 2) -> np.ndarray:
+    """(n,) relative change of the exact result when each component of the inputs moves by half a rounding, `step`."""
     here = exact_results(twin, inputs)
     slots = judged_slots(twin)
     change = np.zeros(inputs[0].shape[1])
@@ -100,10 +102,10 @@ def attainable(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
     for i, argument in enumerate(arguments):
         for component in range(argument.size if argument.continuous else 0):
             moved = [x.copy() for x in inputs]
-            moved[i][component] *= 1 - EPS / 2
+            moved[i][component] *= 1 - step
             for slot in slots:
                 with np.errstate(all="ignore"):
-                    step = np.max(np.abs(exact_results(twin, moved)[slot] - here[slot]), axis=0)
+                    moves = np.max(np.abs(exact_results(twin, moved)[slot] - here[slot]), axis=0)
                     size = np.maximum(np.max(np.abs(here[slot]), axis=0), OF_CONSTANTS * twin.cancels)
-                    change = np.fmax(change, 0) + np.nan_to_num(step / np.maximum(size, 1e-300), nan=0.0, posinf=1.0)
+                    change = np.fmax(change, 0) + np.nan_to_num(moves / np.maximum(size, 1e-300), nan=0.0, posinf=1.0)
     return change

@@ -14,7 +14,7 @@ from ..glsl_on_device import FunctionOnDevice
 from ..twin import Twin
 from .design import Design, Inputs
 from .findings import FAULTS, FORMATS, Cell, Example, Stressed
-from .judging import HALF_NORMAL, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
+from .judging import EPS, HALF_NORMAL, HALF_STEP, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
 from .regimes import Marks, marks_of
 
 MOST_DIGITS = 7.2
@@ -23,6 +23,8 @@ KEPT = 0.01
 """The relative error that a safe domain keeps."""
 Regime = Callable[[Marks], np.ndarray]
 NONE: Mapping[str, Regime] = MappingProxyType({})
+STEPS = {"mediump": HALF_STEP}
+"""Half a rounding of the inputs, where it is not float32's."""
 TARGETS = {"fp32": "f4", "fp16": "f2", "r11g11b10f": "r11g11b10f", "mediump": "f2"}
 
 
@@ -96,7 +98,7 @@ class Stress:
             got = self._got(name, inputs)
             verdict = self._verdict(name, inputs, got, exact)
             example = self._example(0, inputs, got, exact, verdict)
-            examples[name] = replace(example, attainable=digits(float(attainable(self.twin, inputs)[0])))
+            (examples[name],) = self._attained([example], STEPS.get(name, EPS / 2))
         return examples
 
     def _got(self, form: str, inputs: Inputs) -> list[np.ndarray]:
@@ -180,16 +182,19 @@ class Stress:
 
     def _condition(self) -> None:
         """Say of each worst input what could have been kept."""
-        cells = [cell for regimes in self._cells.values() for cell in regimes.values() if cell.worst]
-        found = [cell.worst for cell in cells] + list(self._largest.values())
-        if not found:
-            return
-        lanes = [np.array([e.inputs[a.name] for e in found if e]).T for a in self.design.arguments]
-        change = attainable(self.twin, lanes)
-        kept = [replace(e, attainable=digits(float(c))) for e, c in zip(found, change, strict=True) if e]
-        for cell, example in zip(cells, kept, strict=False):
-            cell.worst = example
-        self._largest = dict(zip(self._largest, kept[len(cells) :], strict=True))
+        for form, regimes in self._cells.items():
+            cells = [cell for cell in regimes.values() if cell.worst]
+            worst = self._attained([cell.worst for cell in cells if cell.worst], STEPS.get(form, EPS / 2))
+            for cell, example in zip(cells, worst, strict=True):
+                cell.worst = example
+        self._largest = dict(zip(self._largest, self._attained(list(self._largest.values())), strict=True))
+
+    def _attained(self, examples: list[Example], step: float = EPS / 2) -> list[Example]:
+        if not examples:
+            return []
+        lanes = [np.array([e.inputs[a.name] for e in examples]).T for a in self.design.arguments]
+        change = attainable(self.twin, lanes, step)
+        return [replace(e, attainable=digits(float(c))) for e, c in zip(examples, change, strict=True)]
 
 
 def _joined(first: Inputs, second: Inputs) -> Inputs:

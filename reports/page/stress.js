@@ -2,7 +2,7 @@
 // Fills the grid for the chosen format and shows the chosen cell; nothing is computed here.
 (() => {
 const data = JSON.parse(document.getElementById('data').textContent);
-const grid = document.getElementById('grid'), panel = document.getElementById('panel');
+const grid = document.getElementById('grid'), panel = document.getElementById('chosen');
 
 function element(tag, text, attributes = {}) {
     const made = document.createElement(tag);

@@ -46,11 +46,12 @@ def test_a_cell_opens_its_worst_input_and_the_command(page: Page) -> None:
         "NaN"
     ]
     click(page, "#grid td:nth-child(4) button")
-    text = page.evaluate("document.querySelector('#panel').textContent")
+    text = page.evaluate("document.querySelector('#chosen').textContent")
+    assert page.evaluate("document.querySelector('#chosen').getBoundingClientRect().height") > 50
     assert "zero vector" in text and "NaN: 3" in text and "20 inputs" in text
-    assert page.evaluate("document.querySelector('#panel code').textContent").endswith("--input n=0,0,1 alpha=1e-06")
+    assert page.evaluate("document.querySelector('#chosen code').textContent").endswith("--input n=0,0,1 alpha=1e-06")
     click(page, "#grid td:nth-child(3) button")
-    assert "inputs' own rounding" in page.evaluate("document.querySelector('#panel').textContent")
+    assert "inputs' own rounding" in page.evaluate("document.querySelector('#chosen').textContent")
     page.evaluate("document.querySelector('input[value=fp16]').click()")
     page.until("document.querySelectorAll('#grid button').length === 1")
     page.evaluate("document.querySelector('input[value=fp32]').click()")
