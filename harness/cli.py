@@ -15,6 +15,7 @@ COMMANDS = {
     "export": "write a scene as glTF, environment and camera.json, for another engine to draw",
     "sweep": "measure error against run time over an effect's knobs, beside the path tracer",
     "gate": "hold the limits of lightmeter.toml, and say which failed",
+    "stress": "find the inputs at which shading functions lose digits or are not finite",
     "diff": "compare two images on disk",
     "scenes": "list the scenes there are",
     "effects": "list the effects there are, or explain one",

@@ -39,6 +39,12 @@
     metric = "flip"
     max = 0.2
 
+    [[stress]]                  # on the arithmetic of shading functions, see stress_limits.py
+    function = "d_ggx"
+    alpha = 0.002               # and up
+    metric = "digits"
+    min = 3
+
 What a limit does not say, `[defaults]` says for it.
 """
 
@@ -57,6 +63,7 @@ from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 from lightmeter.regions import EVERYWHERE, Region
 from lightmeter.scenes.files import read_bytes
 from lightmeter.scenes.validation import Strict, read_toml
+from lightmeter.stress_limits import StressEntry
 
 LARGEST = 2**20
 """Bytes of a limits file."""
@@ -163,6 +170,7 @@ class LimitsFile(Strict):
     defaults: Setting = Setting()
     candidate: tuple[CandidateEntry, ...] = ()
     limit: tuple[LimitEntry, ...] = ()
+    stress: tuple[StressEntry, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -228,6 +236,7 @@ class Rules:
         seconds: for all verdicts together; None: no limit.
         confidence: that no verdict is wrong.
         candidates: the renderers that limits may be on.
+        stress: limits on the arithmetic of shading functions.
     """
 
     limits: tuple[Limit, ...]
@@ -235,6 +244,7 @@ class Rules:
     seconds: float | None
     confidence: float
     candidates: tuple[Candidate, ...] = ()
+    stress: tuple[StressEntry, ...] = ()
 
 
 def read_rules(path: Path) -> Rules:
@@ -244,13 +254,14 @@ def read_rules(path: Path) -> Rules:
         SceneError, UsageError: it is missing, no TOML, or does not follow the schema; the message names the place.
     """
     file = read_toml(read_bytes(path, LARGEST), LimitsFile, str(path))
-    if not file.limit:
+    if not file.limit and not file.stress:
         raise UsageError(
             f"{path}: it holds no limit: expected at least one [[limit]] with scene, metric and max, min or regression"
         )
     limits = tuple(_limit(entry, file.defaults, f"{path}: limit[{index}]") for index, entry in enumerate(file.limit))
     candidates = tuple(entry.candidate(path.parent) for entry in file.candidate)
-    return Rules(limits, path.parent / file.baseline, file.budget.seconds, file.budget.confidence, candidates)
+    baseline, budget = path.parent / file.baseline, file.budget
+    return Rules(limits, baseline, budget.seconds, budget.confidence, candidates, file.stress)
 
 
 def read_candidates(path: Path) -> tuple[Candidate, ...]:

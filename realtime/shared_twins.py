@@ -99,6 +99,7 @@ def above(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray
     for direct in (v, light):
         cosine = np.sum(n * direct, axis=0)
         along = direct - cosine * n + 1e-9 * np.roll(n, 1, axis=0)  # straight above there is no direction beside n
+        along = along - n * np.sum(n * along, axis=0) / np.maximum(np.sum(n * n, axis=0), 1e-300)  # what rounding left
         grazing = rng.random(len(cosine)) < 0.2
         raised = np.where(grazing, logarithmic(1e-4, 1e-1)(rng, len(cosine)), np.maximum(np.abs(cosine), 1e-4))
         turned.append(along / np.linalg.norm(along, axis=0) * np.sqrt(1 - raised**2) + raised * n)

@@ -25,6 +25,7 @@ class Argument:
         draw: random inputs over its domain.
         boundary: values that random draws would miss: the ends of clamps, zeros, where a branch changes.
         out: whether the function writes it; then it is compared too and needs no inputs.
+        kind: what it stands for, where its extremes (`stress/kinds.py`) cannot be told by its name and draw.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Argument:
     draw: Draw | None = None
     boundary: Sequence[float | Sequence[float]] = ()
     out: bool = False
+    kind: str = ""
 
     @property
     def size(self) -> int:

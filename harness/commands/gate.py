@@ -60,13 +60,13 @@ def run(args: argparse.Namespace) -> int:
     if args.truth:
         limits = tuple(_under(limit, args.truth) for limit in limits)
     store = None if args.no_store else Store(say=options.say)
-    pairs = plan_cases(limits, config, args.scenes, store, candidates)
+    pairs = plan_cases(limits, config, args.scenes, store, candidates) if limits else []
     if args.update:
         return _update(pairs, rules.baseline, confidence, seconds)
     start = time.perf_counter()
     trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        verdicts = decide(trials, seconds, report)
+        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, report)]
     code = _exit_code(verdicts, args.strict)
     document = _document(verdicts, code, confidence, time.perf_counter() - start)
     if folder is not None:
@@ -109,6 +109,15 @@ def _under(limit, truth: str):
         return limit
     variant = ", ".join(part for part in (limit.variant, f"truth {truth}") if part)
     return replace(limit, conditions=replace(limit.conditions, scattering=truth), variant=variant)
+
+
+def _stress(entries, args: argparse.Namespace, report) -> list:
+    """The verdicts on shading functions; none where the run is narrowed to scenes or to a candidate."""
+    if not entries or args.scenes or words.candidates(args, args.config):
+        return []
+    from lightmeter.stress_limits import judge_all
+
+    return judge_all(entries, report)
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

@@ -5,7 +5,7 @@ const float MIN_ALPHA = 1e-3;
 // (n·h, |n × h|², v·h) of the half vector h between v and l.
 vec3 half_cosines(vec3 n, vec3 v, vec3 l) {
     vec3 sum = v + l;
-    vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-38));
+    vec3 h = sum * inversesqrt(max(dot(sum, sum), 1.2e-38));
     vec3 n_cross_h = cross(n, h);
     return vec3(dot(n, h), dot(n_cross_h, n_cross_h), dot(v, h));
 }

@@ -17,7 +17,7 @@ vec3 specular_lobe(vec3 base_color, float metallic, float roughness, float specu
 // (1 − F)·c_diff/π, 1/sr, F the dielectric's: what a unit of irradiance that comes from around l turns into.
 vec3 diffuse_lobe(vec3 base_color, float metallic, float specular, vec3 v, vec3 l) {
     vec3 sum = v + l;
-    float v_dot_h = dot(v, sum) * inversesqrt(max(dot(sum, sum), 1e-38));
+    float v_dot_h = dot(v, sum) * inversesqrt(max(dot(sum, sum), 1.2e-38));
     vec3 above = f_schlick(v_dot_h, vec3(0.04 * specular), vec3(specular));
     return (1.0 - above) * diffuse_color(base_color, metallic) * (1.0 / PI);
 }

@@ -16,6 +16,7 @@ WORDS = {
     "export": ("plane", "-o", "out"),
     "sweep": ("plane", "narkowicz", "--knob", "prescale=0.6", "--curve", "0", *SMALL),
     "gate": (),
+    "stress": ("--function", "shared/f_schlick", "-o", "out"),
     "diff": ("a.png", "a.png", "-o", "out"),
     "scenes": (),
     "effects": (),

@@ -15,13 +15,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lightmeter.realtime.declared_twins import declared_twins
 from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.glsl_on_device import evaluate, functions, text_of
 from lightmeter.realtime.shaders import SHARED
 from lightmeter.realtime.twin import Twin
 from lightmeter.scenes.terms import TERMS
-
-from .declared_twins import declared_twins
-from .glsl_on_device import evaluate, functions, text_of
 
 EPS = float(np.finfo(np.float32).eps)
 LANES = 6144

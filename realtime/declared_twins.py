@@ -3,15 +3,15 @@
 from importlib import import_module
 from pathlib import Path
 
-from lightmeter.realtime.ambient.twin import TWINS as AMBIENT_TWINS
-from lightmeter.realtime.discovery import effects
-from lightmeter.realtime.environments.twin import TWINS as ENVIRONMENT_TWINS
-from lightmeter.realtime.packing_twins import TWINS as PACKING_TWINS
-from lightmeter.realtime.reflections.twin import TWINS as REFLECTION_TWINS
-from lightmeter.realtime.shaders import SHARED
-from lightmeter.realtime.shadows.twin import TWINS as SHADOW_TWINS
-from lightmeter.realtime.shared_twins import TWINS as SHARED_TWINS
-from lightmeter.realtime.twin import Twin
+from .ambient.twin import TWINS as AMBIENT_TWINS
+from .discovery import effects
+from .environments.twin import TWINS as ENVIRONMENT_TWINS
+from .packing_twins import TWINS as PACKING_TWINS
+from .reflections.twin import TWINS as REFLECTION_TWINS
+from .shaders import SHARED
+from .shadows.twin import TWINS as SHADOW_TWINS
+from .shared_twins import TWINS as SHARED_TWINS
+from .twin import Twin
 
 
 def declared_twins() -> list[tuple[Path, Twin]]:
@@ -31,5 +31,4 @@ def declared_twins() -> list[tuple[Path, Twin]]:
         if (effect.folder / "twin.py").is_file():
             module = import_module(f"lightmeter.realtime.effects.{effect.name}.twin")
             found += [(effect.folder, twin) for twin in module.TWINS]
-    found += [(SHARED, twin) for twin in AMBIENT_TWINS]
     return found

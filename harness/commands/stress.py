@@ -1,0 +1,95 @@
+"""`lightmeter stress [EFFECT…]`: where shading functions lose digits, or are not finite, on extreme inputs."""
+
+import argparse
+import sys
+
+from lightmeter import options
+from lightmeter.failures import UsageError
+from lightmeter.progress import progress_bar
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Effects, or one function at one input; output."""
+    parser.add_argument("effects", nargs="*", metavar="EFFECT", help="functions of these effects (default: all)")
+    parser.add_argument(
+        "--function", metavar="NAME", help="just this function: OWNER/FUNCTION as the table calls it, or FUNCTION"
+    )
+    parser.add_argument(
+        "--input",
+        nargs="+",
+        metavar="ARG=X,Y…",
+        help="evaluate --function at this input: every argument, its components parted by commas",
+    )
+    parser.add_argument("--seed", type=options.whole, default=0, metavar="N", help="names the inputs (default 0)")
+    parser.add_argument("-o", "--output", metavar="DIR", help="where the page goes (default lightmeter-out/stress)")
+    options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Stress, write the page, print the table; or evaluate one input."""
+    if not 0 <= args.seed < 1 << 32:
+        raise UsageError(f"--seed: expected 0 to {(1 << 32) - 1}, got {args.seed}")
+    if args.input and not args.function:
+        raise UsageError("--input: name the function with --function")
+    from lightmeter.realtime.stress.naming import named, of_effects
+
+    chosen = of_effects(args.effects)
+    if args.function:
+        chosen = named(args.function, chosen)
+    if args.input:
+        if len(chosen) > 1:
+            raise UsageError(
+                f"--input: several functions are called {args.function!r}: name one of "
+                f"{', '.join(subject.name for subject in chosen)}"
+            )
+        return _at_input(chosen[0], args)
+    return _all(chosen, args)
+
+
+def _all(chosen: list, args: argparse.Namespace) -> int:
+    from lightmeter.realtime.device import Device
+    from lightmeter.realtime.stress.search import Stress
+    from lightmeter.reports.results_json import to_json
+    from lightmeter.reports.stress_page import write_stress
+    from lightmeter.reports.stress_results import SCHEMA, StressResults
+
+    folder = options.output_folder(args.output or "lightmeter-out/stress")
+    device = Device()
+    functions = []
+    with progress_bar() as report:
+        for done, subject in enumerate(chosen):
+            report("functions", done, len(chosen))
+            functions.append(Stress(device, subject.name, subject.twin, subject.folder, args.seed).run())
+    facts = {"gl_renderer": device.renderer, "gl_version": device.version}
+    results = StressResults(SCHEMA, args.seed, facts, functions)
+    page = write_stress(folder, results)
+    if args.json:
+        sys.stdout.write(to_json(results))
+        print(f"report: {page}", file=sys.stderr)
+        return 0
+    from lightmeter.reports.stress_table import fault_lines, stress_tables
+    from lightmeter.terminal import console
+
+    console().print(stress_tables(results))
+    for line in fault_lines(results):  # whole, so that the command can be copied
+        print(line)
+    print(f"report: {page}")
+    return 0
+
+
+def _at_input(subject, args: argparse.Namespace) -> int:
+    from lightmeter.realtime.device import Device
+    from lightmeter.realtime.stress.search import Stress
+    from lightmeter.reports.results_json import to_json
+    from lightmeter.stress_input import parse
+
+    stress = Stress(Device(), subject.name, subject.twin, subject.folder, args.seed)
+    examples = stress.at(parse(args.input, stress.design.arguments))
+    if args.json:
+        sys.stdout.write(to_json(examples))
+        return 0
+    from lightmeter.reports.stress_table import input_table
+    from lightmeter.terminal import console
+
+    console().print(input_table(subject.name, examples))
+    return 0
