@@ -18,6 +18,7 @@ from .measurement import Measurement
 from .moments import Moments
 
 RADIANCE = "W/sr/m²"
+_LARGEST = 1e150  # an interval takes squares, which float64 holds up to here
 
 
 def mse(comparison: Comparison) -> Measurement:
@@ -60,8 +61,6 @@ def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.nda
             unit=unit,
             how="plain mean over one reference image, its noise included",
         )
-    if not np.isfinite(m.gram).all():
-        return Measurement(math.inf, unit=unit, how="the squared differences exceed float64")
     value, left_out = u_statistic(m.gram)
     value /= divisor
     how = f"U-statistic over {k} batches"
@@ -69,7 +68,7 @@ def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.nda
         return Measurement(value, unit=unit, how=f"{how}, no interval under {MIN_BATCHES}")
     keeps = ~np.eye(k, dtype=bool)
     left_out = left_out / np.array([scale(m, keep) for keep in keeps])
-    if not np.isfinite(left_out).all():
+    if not (np.abs(left_out) < _LARGEST).all():
         return Measurement(value, unit=unit, how=f"{how}, no interval: the reference is nearly black")
     low, high = squared_norm_interval(value, left_out, m.gram / divisor, comparison.confidence)
     return Measurement(value, low, high, unit, f"{how}, jackknife, Student t")
