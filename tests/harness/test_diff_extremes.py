@@ -1,4 +1,4 @@
-"""`lightmeter diff` of images that no renderer should make: an answer or one message, never a traceback or a warning."""
+"""`lightmeter diff` of images that no renderer should make: an answer or one message, no traceback, no warning."""
 
 import warnings
 
