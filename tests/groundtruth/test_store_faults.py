@@ -1,4 +1,4 @@
-"""A store on a full disk, without rights, under a run that is killed: no wrong result, and no batch lost that was kept."""
+"""A store on a full disk, without rights, under a run that is killed: nothing wrong, and nothing lost that was kept."""
 
 import errno
 import os
@@ -152,7 +152,7 @@ def test_a_run_killed_again_and_again_ends_as_one_that_was_not(tmp_path, kills):
     count = 8 + 2 * kills
     for _ in range(kills):
         done = killed(tmp_path, count, chance)
-        now = len([path for path in tmp_path.rglob("batch-*.exr")])
+        now = len(list(tmp_path.rglob("batch-*.exr")))
         assert now >= max(kept, done)  # what a run has told of stays
         kept = now
     told = []
