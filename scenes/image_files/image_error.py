@@ -2,7 +2,6 @@
 
 import os
 
-
 _LONGEST = 200
 """Characters of what was expected or found, which may be a damaged file's own bytes."""
 

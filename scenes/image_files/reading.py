@@ -150,7 +150,7 @@ def _read_png(path: Path, head: bytes, max_pixels: int) -> npt.NDArray[np.float3
 
 
 def _opened(path: Path):
-    """Pillow's picture of a PNG file. From memory: of a file, Pillow would ask for as much as a damaged length claims."""
+    """Pillow's picture of a PNG file, from memory: of a file it asks for as much as a damaged length claims."""
     from PIL import Image
 
     return Image.open(io.BytesIO(path.read_bytes()), formats=("PNG",))

@@ -4,6 +4,7 @@ The child dies of a hang (its alarm ends it, whatever native code it is in) or o
 then still there, and the next child goes on behind it. An input follows from the loader, the seed and its number.
 """
 
+import faulthandler
 import hashlib
 import json
 import multiprocessing
@@ -102,6 +103,7 @@ def _child(loader: Loader, folder: Path, numbers: Sequence[int], seed: int) -> N
     held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (held + MEMORY, held + MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    faulthandler.disable()  # a crash is a finding, told by the parent
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     path, read, refused = folder / loader.file, 0, 0
     with (folder / "findings").open("w") as findings:
