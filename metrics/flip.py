@@ -248,7 +248,7 @@ def flip(
     pixels_per_degree: float = PIXELS_PER_DEGREE,
     bound: bool = True,
 ) -> Measurement:
-    """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal.
+    """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal. Display values outside [0, 1] are clamped.
 
     Args:
         comparison: the two sides, scene-linear, or display values where `display` is None.
@@ -272,7 +272,7 @@ def flip_error(display: Callable[[np.ndarray], np.ndarray] | None, pixels_per_de
 
 
 def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, bound: bool = True) -> Measurement:
-    """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal.
+    """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal. Negative radiance is clamped to 0.
 
     Args:
         comparison: the two sides, scene-linear.

@@ -25,17 +25,21 @@ def mse(comparison: Comparison) -> Measurement:
     """Mean squared error over pixels and channels, in (W/sr/m²)².
 
     Unbiased for K ≥ 2; interval for K ≥ 4. The value, and the interval's lower end, may be negative.
+    Negative radiance is taken as it is.
     """
     return _squared(comparison, f"({RADIANCE})²", lambda m, keep: 1.0)
 
 
 def rmse(comparison: Comparison) -> Measurement:
-    """√max(0, MSE), in W/sr/m², 0 or more; its interval is the MSE's, clipped at 0, under the root."""
+    """√max(0, MSE), in W/sr/m², 0 or more; its interval is the MSE's, clipped at 0, under the root.
+
+    Negative radiance is taken as it is.
+    """
     return _root(_squared(comparison, RADIANCE, lambda m, keep: 1.0), RADIANCE)
 
 
 def nrmse(comparison: Comparison) -> Measurement:
-    """RMSE over the reference's mean, a pure number; NaN where that mean is not above 0."""
+    """RMSE over the reference's mean, a pure number; NaN where that mean is not above 0, be it black or negative."""
     squared = _squared(comparison, "", lambda m, keep: _positive(_mean(m.reference_means, keep)) ** 2)
     return _root(squared, "")
 

@@ -78,7 +78,7 @@ def ssim(
 ) -> Measurement:
     """Mean SSIM of the display images, 1 is equal.
 
-    Values outside [0, data_range] are taken as they are. Reported as `noisy_mean` says.
+    Values outside [0, data_range], negative ones too, are taken as they are. Reported as `noisy_mean` says.
 
     Args:
         comparison: the two sides, scene-linear, or display values where `display` is None.

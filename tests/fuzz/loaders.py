@@ -67,12 +67,14 @@ class Loader:
         file: the name that a mutated file is given.
         seeds: sound files.
         read: the loader, given the file's path.
+        repair: mends a damaged file's lengths and sums, so that the damage gets past the first check.
     """
 
     name: str
     file: str
     seeds: tuple[bytes, ...]
     read: Callable[[Path], object]
+    repair: Callable[[bytes], bytes] = bytes
 
 
 def png16(values: np.ndarray) -> bytes:
@@ -85,6 +87,27 @@ def png16(values: np.ndarray) -> bytes:
     rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in (values * 65535).astype(np.uint16))
     head = struct.pack(">IIBBBBB", width, height, 16, 2, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def with_png_sums(data: bytes) -> bytes:
+    """The chunks' sums made right, as far as their lengths lead."""
+    mended, at = bytearray(data), 8
+    while at + 12 <= len(data):
+        end = at + 8 + int.from_bytes(data[at : at + 4], "big")
+        mended[end : end + 4] = struct.pack(">I", zlib.crc32(data[at + 4 : end])) if end + 4 <= len(data) else b""
+        at = end + 4
+    return bytes(mended)
+
+
+def with_glb_lengths(data: bytes) -> bytes:
+    """The lengths of the file and of its two chunks made right, where both are still to be found."""
+    json, mark, binary = data[20:].partition(b"BIN\0")
+    if not mark:
+        return data
+    text = json[:-4] + b" " * (-len(json[:-4]) % 4)
+    binary += bytes(-len(binary) % 4)
+    whole = struct.pack("<I", len(text)) + b"JSON" + text + struct.pack("<I", len(binary)) + mark + binary
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(whole)) + whole
 
 
 def _written(write: Callable[[Path], object], name: str) -> bytes:
@@ -109,10 +132,10 @@ def loaders() -> dict[str, Loader]:
     found = (
         Loader("toml", "scene.toml", (FILES["scene.toml"],), load),
         Loader("gltf", "scene.gltf", (inline,), load),
-        Loader("glb", "scene.glb", (FILES["scene.glb"],), load),
+        Loader("glb", "scene.glb", (FILES["scene.glb"],), load, with_glb_lengths),
         Loader("obj", "mesh.obj", (OBJ.encode(),), load_obj),
         Loader("ply", "mesh.ply", tuple(FILES[f"{kind}.ply"] for kind in ("ascii", "little", "big")), load_ply),
-        Loader("png", "image.png", pngs, read_image),
+        Loader("png", "image.png", pngs, read_image, with_png_sums),
         Loader("exr", "image.exr", (_written(lambda path: write_exr(path, image), "image.exr"),), read_image),
         Loader("hdr", "image.hdr", (_written(lambda path: hdr(path, noise(9, 5)), "image.hdr"),), read_image),
         Loader("limits", "lightmeter.toml", (LIMITS,), read_rules),

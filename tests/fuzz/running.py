@@ -110,6 +110,7 @@ def _child(loader: Loader, folder: Path, numbers: Sequence[int], seed: int) -> N
         for number in numbers:
             random = Random(f"{loader.name} {seed} {number}")
             data = mutated(random.choice(loader.seeds), random)
+            data = loader.repair(data) if random.random() < 0.5 else data
             path.write_bytes(data)
             (folder / "at").write_text(f"{number} {read} {refused}")
             signal.setitimer(signal.ITIMER_REAL, SECONDS)

@@ -22,6 +22,7 @@ def test_sound_files_are_read(tmp_path, name):
     for sound in loader.seeds:
         (tmp_path / loader.file).write_bytes(sound)
         assert fault(loader, tmp_path / loader.file) is None
+        assert loader.repair(sound) == sound
 
 
 @pytest.mark.parametrize("name", loaders())

@@ -112,3 +112,9 @@ def test_ssim_of_values_whose_fourth_powers_leave_float32():
     assert abs(measure("ssim", black, huge).value) < 1e-30
     scaled = measure("ssim", np.float32(1e30) * KINDS["constant"], huge, data_range=1e30).value
     assert scaled == pytest.approx(measure("ssim", KINDS["constant"], NOISE).value, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_the_rule_for_odd_values_is_documented(name):
+    text = METRICS[name].function.__doc__ or ""
+    assert any(word in text.lower() for word in ("negative", "clamped", "else as `rms_p95`", "arguments as of `flip`"))
