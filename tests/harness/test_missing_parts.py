@@ -1,5 +1,6 @@
 """Machines that lack a part: one message with a remedy and exit code 2, and what can be done without it is done."""
 
+import errno
 import json
 import os
 import subprocess
@@ -7,6 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from lightmeter import report_folder
+
+from .small_images import exr, noise
 
 LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="EGL and these variables are Linux's")
 NO_GL = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"}
@@ -73,3 +78,14 @@ def test_no_place_for_the_output(tmp_path):
     (tmp_path / "out").write_text("in the way")
     message = refusal(lightmeter(tmp_path, "reference", "posts"))
     assert "out" in message
+
+
+def test_a_full_disk_under_a_report_is_named(refused, tmp_path, monkeypatch):
+    exr(tmp_path / "a.exr", noise())
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    def fail(*_words):
+        raise full
+
+    monkeypatch.setattr(report_folder, "write_json", fail)
+    assert refused("diff", "a.exr", "a.exr", "-o", "out") == "out: No space left on device"
