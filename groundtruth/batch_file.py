@@ -39,6 +39,9 @@ def write(path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str]) -
 
     Returns:
         The file's size in bytes.
+
+    Raises:
+        OSError: the file cannot be written: the disk is full, the folder may only be read.
     """
     import OpenEXR
 
@@ -53,7 +56,10 @@ def write(path: Path, layers: dict[str, np.ndarray], metadata: dict[str, str]) -
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.parent / f"{TEMPORARY}{os.getpid()}-{secrets.token_hex(4)}.exr"
     try:
-        OpenEXR.File(header, channels).write(str(unfinished))
+        try:
+            OpenEXR.File(header, channels).write(str(unfinished))
+        except RuntimeError as error:  # what OpenEXR makes of the system's errors
+            raise OSError(f"{path} cannot be written ({str(error).rpartition('. ')[2].rstrip('.')})") from None
         content = unfinished.read_bytes()
         with unfinished.open("ab") as file:
             file.write(_MARK + hashlib.sha256(content).digest())

@@ -2,7 +2,8 @@
 
 A `Series` says what a set of batches is of; its key is a digest of all that, so nothing stale is ever found. A batch
 is one file, written beside its place and renamed into it: a run that is killed leaves whole batches behind, and two
-processes may share a store without a lock (both may make the same batch; the last one stays).
+processes may share a store without a lock (both may make the same batch; the last one stays). A store that cannot be
+written or read (a full disk, no rights) costs time and no batch: that is told once, and what it lacks is made.
 """
 
 import os
@@ -126,11 +127,12 @@ class Store:
 
     Attributes:
         folder: `default_folder()` unless said; made when first written to.
-        say: told, in one sentence, of damaged files.
+        say: told, in one sentence, of damaged files, and once of a folder that cannot be written or read.
     """
 
     folder: Path = field(default_factory=default_folder)
     say: Callable[[str], None] = lambda message: None
+    _told: set[str] = field(default_factory=set, repr=False, compare=False)
 
     def path(self, series: Series, name: str) -> Path:
         """Where a batch lies or would lie."""
@@ -141,23 +143,44 @@ class Store:
         path = self.path(series, name)
         try:
             found = batch_file.read(path, series.size)
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             return None
         except DamagedFileError as error:
-            self.say(f"{error}; it is removed and made again")
-            path.unlink(missing_ok=True)
+            self._discard(path, str(error))
+            return None
+        except OSError as error:
+            self._tell_once("read", error, "what it holds is made again")
             return None
         if found[1].get("key") != series.key:
-            self.say(f"{path} belongs to another series ({found[1].get('key')}); it is removed and made again")
-            path.unlink(missing_ok=True)
+            self._discard(path, f"{path} belongs to another series ({found[1].get('key')})")
             return None
         _touch(path)
         return found
 
     def write(self, series: Series, name: str, layers: dict[str, np.ndarray], seconds: float) -> int:
-        """Writes a batch; returns its size in bytes. `layers` as in `batch_file.write`."""
+        """Writes a batch; returns its size in bytes, 0 where it cannot be kept. `layers` as in `batch_file.write`."""
         metadata = series.metadata | {"name": name, "seconds": f"{seconds:.6f}"}
-        return batch_file.write(self.path(series, name), layers, metadata)
+        try:
+            return batch_file.write(self.path(series, name), layers, metadata)
+        except OSError as error:
+            self._tell_once("written", error, "this run goes on, and what it makes from here on may not be kept")
+            return 0
+
+    def _tell_once(self, verb: str, error: OSError, outcome: str) -> None:
+        if verb in self._told:
+            return
+        self._told.add(verb)
+        remedy = f"make room there, or name another folder in {FOLDER_VARIABLE}"
+        self.say(f"the store {self.folder} cannot be {verb}: {error.strerror or error}; {outcome} ({remedy})")
+
+    def _discard(self, path: Path, why: str) -> None:
+        """Removes a file that is of no use; in a store that may only be read it stays, and is of no use again."""
+        try:
+            path.unlink(missing_ok=True)
+        except OSError:
+            self.say(f"{why}; it cannot be removed, and is made again")
+            return
+        self.say(f"{why}; it is removed and made again")
 
     def recall(
         self, series: Series, name: str, make: Callable[[], dict[str, np.ndarray]]

@@ -183,7 +183,10 @@ def activate() -> str:
         raise NoRendererError(
             f"Mitsuba cannot be imported ({error})", "Reinstall it: pip install --force-reinstall mitsuba==3.9.1"
         ) from error
-    mitsuba.set_variant(variant)
+    try:
+        mitsuba.set_variant(variant)
+    except ImportError as error:  # a file of LLVM's name that is none, or one for another processor
+        raise NoRendererError(f"Mitsuba's {variant} does not start ({str(error).partition('!')[0]})") from error
     import drjit
 
     # Whether Dr.Jit fetches a row at once depends on which of its numbers are still referred to when a kernel is

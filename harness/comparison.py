@@ -190,7 +190,11 @@ def compare(
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
-        notes=scene.notes + _notes(renderer, times) + others.notes + few_carry(frame.radiance, reference.batches),
+        notes=scene.notes
+        + ((truth.doubt,) if truth.doubt else ())
+        + _notes(renderer, times)
+        + others.notes
+        + few_carry(frame.radiance, reference.batches),
         not_approximated=plan.not_approximated,
         passes=tuple(outcome.PassTime(name, effect, t.median, t.mad) for name, effect, t in times.passes),
         attribution=shared.attribution if shared else None,

@@ -190,6 +190,7 @@ def _step(work: Work, go_on: Callable[[], bool]) -> None:
     """Draw up to the next look, and look at every open trial."""
     subject = work.subject
     _refuse_broken(work)
+    _refuse_doubtful(work)
     if not work.open or not subject.advance(subject.looks[work.next_look], go_on):
         return
     _refuse_broken(work)
@@ -222,6 +223,15 @@ def _refuse_broken(work: Work) -> None:
         bad = work.subject.broken(trial.limit)
         if bad:
             trial.verdict = _verdict(trial, work, "FAIL", Measurement(math.nan, how=f"failed: {bad}"))
+
+
+def _refuse_doubtful(work: Work) -> None:
+    """On a truth that fails its own checks nothing is decided."""
+    if not work.open or not (reason := work.subject.doubt()):
+        return
+    for trial in work.open:
+        message = f"{trial.limit.metric} of {trial.limit.what}: {reason}"
+        trial.verdict = replace(_bare(trial), message=message, reason=reason)
 
 
 def see_candidate(trial: Trial) -> None:

@@ -121,7 +121,8 @@ def pair(tested: ImageFile, reference: ImageFile, exposure: float | None = None)
 def _shown(values: np.ndarray, stops: float) -> np.ndarray:
     """Display values of scene-linear ones; what is not finite stays a NaN, which clipping would hide."""
     finite = np.isfinite(values)
-    exposed = np.clip(np.where(finite, values, 0.0) * 2.0**stops, 0.0, 1.0)
+    with np.errstate(over="ignore"):  # what exceeds float32 is white or black as well
+        exposed = np.clip(np.where(finite, values, 0.0) * 2.0**stops, 0.0, 1.0)
     return np.where(finite, srgb_encode(exposed), np.nan).astype(np.float32)
 
 

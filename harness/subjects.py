@@ -61,6 +61,10 @@ class Subject(Protocol):
         """What is not finite in what is tested, where the limit is; None where that is not known yet."""
         ...
 
+    def doubt(self) -> str:
+        """Why nothing can be decided on what is compared with; "" where there is no reason."""
+        ...
+
     def measure(self, limit: Limit, confidence: float) -> Measurement:
         """The limit's number with its interval."""
         ...
@@ -114,6 +118,10 @@ class ImageSubject:
         if not self.groups.images:
             return None
         return find_non_finite(self.sides(limit).tested[0], self.case.mask(limit))
+
+    def doubt(self) -> str:
+        """The truth's own."""
+        return self.case.truth.doubt
 
     def measure(self, limit: Limit, confidence: float) -> Measurement:
         """By the metric's own interval."""
@@ -229,6 +237,10 @@ class TimeSubject:
     def broken(self, limit: Limit) -> NonFinite | None:
         """A time is always finite."""
         return None
+
+    def doubt(self) -> str:
+        """A time is compared with times."""
+        return ""
 
     def measure(self, limit: Limit, confidence: float) -> Measurement:
         """The median, of milliseconds or of the ratios of times that were taken in one round."""

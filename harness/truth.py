@@ -148,6 +148,16 @@ class Truth:
         spp = self.budget.spp_per_batch
         return reference(self.scene, self.size, spp=spp, batches=self.budget.batches, **common)
 
+    @cached_property
+    def doubt(self) -> str:
+        """Why nothing can be decided on this truth; "" where its own checks hold. Near the origin none is needed."""
+        from lightmeter.groundtruth.offset_check import check_offset, is_far
+
+        if not is_far(self.scene):
+            return ""
+        found = check_offset(self.scene, self.size, self.seed)
+        return "" if found.holds else found.words
+
     def to_depth(self, depth: int) -> "Truth":
         """The same for paths of at most this depth: 2 is direct light, and each bounce more is one more."""
         scene = replace(self.scene, max_depth=depth)

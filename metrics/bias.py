@@ -22,7 +22,7 @@ def bias(comparison: Comparison) -> Measurement:
 
 
 def relative_bias(comparison: Comparison) -> Measurement:
-    """The bias as a fraction of the reference's mean: a pure number; NaN where that mean is not above 0."""
+    """The bias as a fraction of the reference's mean: a pure number; NaN where that mean is black or negative."""
     if comparison.unusable():
         return comparison.failure("")
     m = comparison.moments

@@ -79,7 +79,7 @@ def delta_e_2000(
     display: Callable[[np.ndarray], np.ndarray] | None = None,
     bound: bool = True,
 ) -> Measurement:
-    """Mean ΔE2000 of the display images; reported as `noisy_mean` says.
+    """Mean ΔE2000 of the display images, clamped to [0, 1]; reported as `noisy_mean` says.
 
     Args:
         comparison: the two sides, scene-linear, or sRGB-encoded display values where `display` is None.
@@ -91,7 +91,7 @@ def delta_e_2000(
 
 
 def delta_e_itp(comparison: Comparison, white: float = REFERENCE_WHITE, bound: bool = True) -> Measurement:
-    """Mean ΔE_ITP of scene-linear images; reported as `noisy_mean` says.
+    """Mean ΔE_ITP of scene-linear images; reported as `noisy_mean` says. Luminances are clamped to what PQ encodes.
 
     Args:
         comparison: the two sides, scene-linear Rec.709.

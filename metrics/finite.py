@@ -3,7 +3,8 @@
 The rule of this package: a metric of a tested image with a NaN or an infinity in any pixel that the metric reads is
 NaN, without an interval, and its `how` says how many such pixels there are and where the first is. Pixel-wise
 metrics read the pixels inside the mask; metrics with a spatial filter (FLIP, SSIM) read the whole image. A
-reference that is not finite is no truth to compare with, and raises `InputError`.
+reference that is not finite is no truth to compare with, and raises `InputError`. Radiance is held in float32: what
+lies beyond its range, 3.4e38, counts as infinite, so that squares and fourth powers of what remains fit into float64.
 """
 
 from dataclasses import dataclass
@@ -18,8 +19,8 @@ class NonFinite:
     Attributes:
         pixels: how many pixels have at least one channel that is not finite.
         nan: how many channel values are NaN.
-        positive: how many channel values are +inf.
-        negative: how many channel values are -inf.
+        positive: how many channel values are +inf, or above float32's range.
+        negative: how many channel values are -inf, or below it.
         first: (row, column) of the first few such pixels, in reading order.
     """
 
@@ -46,11 +47,12 @@ def find_non_finite(image: np.ndarray, mask: np.ndarray | None = None, limit: in
     """Counts and locates the values of an image that are not finite.
 
     Args:
-        image: (H, W) or (H, W, C), any float type.
+        image: (H, W) or (H, W, C), any float type; judged as float32.
         mask: (H, W) boolean, the pixels to look at; all when None.
         limit: how many positions to list at most.
     """
-    image = np.asarray(image)
+    with np.errstate(over="ignore"):
+        image = np.asarray(image).astype(np.float32, copy=False)
     bad = ~np.isfinite(image)
     if mask is not None:
         bad &= mask if image.ndim == 2 else mask[..., None]

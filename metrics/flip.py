@@ -59,6 +59,7 @@ _TO_XYZ = _NORMALISED_XYZ.astype(np.float32)
 # (c0 x² + c1 x + c2) / (c3 x² + c4 x + c5).
 _ACES = (0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14)
 _EXPOSURE_TARGET = 0.85  # the tone-mapped value that the brightest and the median luminance are brought to
+_DARKEST = float(np.finfo(np.float32).tiny)
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722], dtype=np.float32)
 
 _TILE = 64  # output pixels a matrix product; 64 keeps the arithmetic low and the product large enough
@@ -163,6 +164,7 @@ def hdr_flip(
     Where the median is 0 (more than half of the image is black) the median of the luminances above 0 is
     taken; where the whole reference is black, the tested image gives the range instead, so that light where
     there should be none is seen; two black images have error 0. (NVIDIA's code has no answer there.)
+    Luminances below float32's smallest normal number, 1.2e-38, are black: no float32 exposure would show them.
 
     Args:
         tested: (H, W, 3), scene-linear Rec.709 radiance; values below 0 are clamped.
@@ -229,11 +231,11 @@ def exposure_range(reference: np.ndarray, tested: np.ndarray) -> tuple[float, fl
         r, g, b = (np.maximum(image[..., i], 0).astype(np.float32) * _LUMINANCE[i] for i in range(3))
         luminance = (r + g + b).ravel()
         largest = float(luminance.max())
-        if largest > 0:
+        if largest >= _DARKEST:
             middle = luminance.size // 2
             median = float(np.partition(luminance, middle)[middle])
-            if median <= 0:
-                lit = luminance[luminance > 0]
+            if median < _DARKEST:
+                lit = luminance[luminance >= _DARKEST]
                 median = float(np.partition(lit, lit.size // 2)[lit.size // 2])
             start, stop = (np.float32(math.log2(np.float32(bright) / y)) for y in (largest, median))
             return float(start), float(stop)
@@ -246,7 +248,7 @@ def flip(
     pixels_per_degree: float = PIXELS_PER_DEGREE,
     bound: bool = True,
 ) -> Measurement:
-    """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal.
+    """Mean LDR-FLIP of the display images, in [0, 1]; 0 is equal. Display values outside [0, 1] are clamped.
 
     Args:
         comparison: the two sides, scene-linear, or display values where `display` is None.
@@ -270,7 +272,7 @@ def flip_error(display: Callable[[np.ndarray], np.ndarray] | None, pixels_per_de
 
 
 def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGREE, bound: bool = True) -> Measurement:
-    """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal.
+    """Mean HDR-FLIP of scene-linear images, in [0, 1]; 0 is equal. Negative radiance is clamped to 0.
 
     Args:
         comparison: the two sides, scene-linear.
@@ -282,6 +284,7 @@ def flip_hdr(comparison: Comparison, pixels_per_degree: float = PIXELS_PER_DEGRE
     """
     if comparison.unusable(spatial=True):
         return comparison.failure("")
+    comparison.check_reference(None)
     start, stop = exposure_range(comparison.mean_reference, comparison.mean_tested)
     return measure_map(
         comparison,

@@ -18,23 +18,28 @@ from .measurement import Measurement
 from .moments import Moments
 
 RADIANCE = "W/sr/m²"
+_LARGEST = 1e150  # an interval takes squares, which float64 holds up to here
 
 
 def mse(comparison: Comparison) -> Measurement:
     """Mean squared error over pixels and channels, in (W/sr/m²)².
 
     Unbiased for K ≥ 2; interval for K ≥ 4. The value, and the interval's lower end, may be negative.
+    Negative radiance is taken as it is.
     """
     return _squared(comparison, f"({RADIANCE})²", lambda m, keep: 1.0)
 
 
 def rmse(comparison: Comparison) -> Measurement:
-    """√max(0, MSE), in W/sr/m², 0 or more; its interval is the MSE's, clipped at 0, under the root."""
+    """√max(0, MSE), in W/sr/m², 0 or more; its interval is the MSE's, clipped at 0, under the root.
+
+    Negative radiance is taken as it is.
+    """
     return _root(_squared(comparison, RADIANCE, lambda m, keep: 1.0), RADIANCE)
 
 
 def nrmse(comparison: Comparison) -> Measurement:
-    """RMSE over the reference's mean, a pure number; NaN where that mean is not above 0."""
+    """RMSE over the reference's mean, a pure number; NaN where that mean is not above 0, be it black or negative."""
     squared = _squared(comparison, "", lambda m, keep: _positive(_mean(m.reference_means, keep)) ** 2)
     return _root(squared, "")
 
@@ -60,8 +65,6 @@ def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.nda
             unit=unit,
             how="plain mean over one reference image, its noise included",
         )
-    if not np.isfinite(m.gram).all():
-        return Measurement(math.inf, unit=unit, how="the squared differences exceed float64")
     value, left_out = u_statistic(m.gram)
     value /= divisor
     how = f"U-statistic over {k} batches"
@@ -69,7 +72,7 @@ def _squared(comparison: Comparison, unit: str, scale: Callable[[Moments, np.nda
         return Measurement(value, unit=unit, how=f"{how}, no interval under {MIN_BATCHES}")
     keeps = ~np.eye(k, dtype=bool)
     left_out = left_out / np.array([scale(m, keep) for keep in keeps])
-    if not np.isfinite(left_out).all():
+    if not (np.abs(left_out) < _LARGEST).all():
         return Measurement(value, unit=unit, how=f"{how}, no interval: the reference is nearly black")
     low, high = squared_norm_interval(value, left_out, m.gram / divisor, comparison.confidence)
     return Measurement(value, low, high, unit, f"{how}, jackknife, Student t")

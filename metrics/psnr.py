@@ -11,6 +11,8 @@ from .mse import mse
 def psnr(comparison: Comparison, peak: float = 1.0) -> Measurement:
     """10 log10(peak² / MSE) in dB, with the unbiased MSE: +inf where that is 0 or negative.
 
+    Negative radiance is taken as it is.
+
     Args:
         comparison: the two sides.
         peak: the signal's largest value in the images' unit. It has to be stated: scene-linear radiance has none
@@ -31,7 +33,7 @@ def psnr(comparison: Comparison, peak: float = 1.0) -> Measurement:
         return Measurement(math.nan, unit="dB", how=squared.how)
 
     def decibel(x: float) -> float:
-        return math.inf if x <= 0 else 10 * math.log10(peak**2 / x)
+        return math.inf if x <= 0 else 20 * math.log10(peak) - 10 * math.log10(x)
 
     low = None if squared.high is None else decibel(squared.high)
     high = None if squared.low is None else decibel(squared.low)

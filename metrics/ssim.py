@@ -15,6 +15,7 @@ from .noisy_mean import ErrorMap, measure_map
 
 WINDOW = 11
 _RADIUS = WINDOW // 2
+_FLOAT32_RANGES = 1e3  # SSIM takes fourth powers of values: beyond so many data ranges float32 has no digits left
 
 
 def ssim_map(tested: np.ndarray, reference: np.ndarray, data_range: float = 1.0) -> np.ndarray:
@@ -47,11 +48,15 @@ def ssim_map(tested: np.ndarray, reference: np.ndarray, data_range: float = 1.0)
             actual=f"{reference.shape[1]}×{reference.shape[0]}",
             remedy="Use larger images, or a pixel-wise metric such as rmse.",
         )
+    # SSIM stays the same where values and range are scaled alike. Whatever float32 holds has a fourth power in float64.
+    tested, reference = tested / data_range, reference / data_range
+    largest = max(float(np.abs(image).max()) for image in (tested, reference))
+    precision = np.float32 if largest <= _FLOAT32_RANGES else np.float64
     # With `full`, the mean and the map: scikit-image's own type cannot say so.
     _, similarity = structural_similarity(  # pyright: ignore[reportAssignmentType]
-        np.asarray(tested, np.float32),
-        np.asarray(reference, np.float32),
-        data_range=data_range,
+        np.asarray(tested, precision),
+        np.asarray(reference, precision),
+        data_range=1.0,
         channel_axis=2,
         gaussian_weights=True,
         sigma=1.5,
@@ -73,7 +78,7 @@ def ssim(
 ) -> Measurement:
     """Mean SSIM of the display images, 1 is equal.
 
-    Values outside [0, data_range] are taken as they are. Reported as `noisy_mean` says.
+    Values outside [0, data_range], negative ones too, are taken as they are. Reported as `noisy_mean` says.
 
     Args:
         comparison: the two sides, scene-linear, or display values where `display` is None.

@@ -120,8 +120,11 @@ class _Assembly:
 
     def _is_blended(self, key: tuple[int, int]) -> bool:
         part = self._source.document.meshes[key[0]].primitives[key[1]]
+        if part.mode <= 3 or part.material is None:
+            return False
+        where = f"meshes[{key[0]}].primitives[{key[1]}].material"
         materials = self._source.document.materials
-        return part.mode > 3 and part.material is not None and materials[part.material].alpha_mode == "BLEND"
+        return self._source.get("materials", materials, part.material, where).alpha_mode == "BLEND"
 
     def _primitive(self, index: int, number: int, name: str) -> tuple[Mesh, Material] | None:
         """A primitive's mesh and material, fitted to each other; None where it is left out."""

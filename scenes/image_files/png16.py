@@ -12,6 +12,7 @@ from lightmeter.scenes.image_files.size_claims import MAX_PIXELS, check_content,
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _SAMPLES = {2: 3, 6: 4}  # colour type: samples per pixel
+_HEADER = 33  # bytes: signature and IHDR
 
 
 def is_png16(head: bytes) -> bool:
@@ -27,6 +28,8 @@ def read_png16(path: Path, max_pixels: int = MAX_PIXELS) -> npt.NDArray[np.uint1
         ImageError: a damaged or cut file, a size that is too large, or an interlaced picture.
     """
     data = path.read_bytes()
+    if len(data) < _HEADER:
+        raise ImageError("PNG cut short", where=path, expected=f"{_HEADER} bytes of header", actual=f"{len(data)}")
     width, height = struct.unpack(">II", data[16:24])
     samples = _SAMPLES[data[25]]
     check_size(path, width, height, max_pixels)

@@ -3,6 +3,7 @@
 The kind of file is told by its first bytes, never by its name. Sizes are checked before memory is asked for.
 """
 
+import io
 import os
 import struct
 from collections.abc import Sequence
@@ -74,9 +75,7 @@ def read_alpha(path: str | os.PathLike[str], max_pixels: int = MAX_PIXELS) -> np
         return exr_planes.read_planes(target, ("A",), max_pixels)[0] if there else None
     if not head.startswith(_PNG) or png16.is_png16(head):
         return None
-    from PIL import Image
-
-    with Image.open(target, formats=("PNG",)) as picture:
+    with _opened(target) as picture:
         if "A" not in picture.getbands() and "transparency" not in picture.info:
             return None
         return np.asarray(picture.convert("RGBA"), np.float32)[..., 3] / np.float32(255)
@@ -134,7 +133,7 @@ def _read_png(path: Path, head: bytes, max_pixels: int) -> npt.NDArray[np.float3
     if len(head) >= 24:  # before Pillow, which has a limit and a warning of its own
         check_size(path, *struct.unpack(">II", head[16:24]), max_pixels)
     try:
-        with Image.open(path, formats=("PNG",)) as picture:
+        with _opened(path) as picture:
             bits = picture.width * picture.height * (1 if picture.mode == "1" else 8)
             check_content(path, bits // 8, path.stat().st_size, 1100.0)
             if picture.mode.startswith("I"):
@@ -148,6 +147,13 @@ def _read_png(path: Path, head: bytes, max_pixels: int) -> npt.NDArray[np.float3
         raise ImageError(
             "damaged or cut short", where=path, actual=str(error), remedy="Write or copy the file again"
         ) from None
+
+
+def _opened(path: Path):
+    """Pillow's picture of a PNG file, from memory: of a file it asks for as much as a damaged length claims."""
+    from PIL import Image
+
+    return Image.open(io.BytesIO(path.read_bytes()), formats=("PNG",))
 
 
 def _decode_srgb(image: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:

@@ -18,8 +18,8 @@ class Subject:
 
     looks = (8, 16, 32, 64)
 
-    def __init__(self, clock, cost: float, count: float = math.inf):
-        self.clock, self.cost, self.samples, self._count = clock, cost, 0, count
+    def __init__(self, clock, cost: float, count: float = math.inf, doubt: str = ""):
+        self.clock, self.cost, self.samples, self._count, self._doubt = clock, cost, 0, count, doubt
         self.steps: list[float] = []
 
     def advance(self, to, go_on):
@@ -33,6 +33,9 @@ class Subject:
 
     def broken(self, limit):
         return None
+
+    def doubt(self):
+        return self._doubt
 
     def measure(self, limit, confidence):
         return Measurement(1.0, 1 - 1 / self.samples, 1 + 1 / self.samples)
@@ -52,10 +55,10 @@ class Clock:
 def run(monkeypatch):
     """Decides subjects of these costs, each with a limit; gives the verdicts and the subjects."""
 
-    def call(costs, limits, seconds=None, count=math.inf):
+    def call(costs, limits, seconds=None, count=math.inf, doubt=""):
         clock = Clock()
         case = SimpleNamespace(name="scene", pixels=lambda limit: 4)
-        subjects = [Subject(clock, cost, count) for cost in costs]
+        subjects = [Subject(clock, cost, count, doubt) for cost in costs]
         trials = [
             Trial(parse_limit(f"rmse <= {high}", conditions()), case, Bound(high, high), 0.001)  # pyright: ignore
             for high in limits
@@ -94,6 +97,13 @@ def test_heavy_tails_end_undecided_with_the_reason(run):
     verdicts, _ = run([1], [1.5], count=3.0)
     assert (verdicts[0].status, verdicts[0].samples) == ("UNDECIDED", 64)
     assert "heavy tails: as few as 3 samples" in verdicts[0].reason
+
+
+def test_a_truth_that_fails_its_own_checks_decides_nothing(run):
+    verdicts, subjects = run([1, 1], [1.5, 0.1], doubt="the reference is not to be trusted")
+    assert [(v.status, v.samples) for v in verdicts] == [("UNDECIDED", 0)] * 2
+    assert {v.reason for v in verdicts} == {"the reference is not to be trusted"}
+    assert [subject.steps for subject in subjects] == [[], []]
 
 
 def test_a_limit_in_words():
