@@ -77,8 +77,8 @@ def run(args: argparse.Namespace) -> int:
     else:
         _print_verdicts(verdicts, document)
     for verdict in verdicts:
-        if verdict.status == "FAIL" and verdict.measurement is not None and isnan(verdict.measurement.value):
-            options.say(verdict.message)  # there is no number that would explain it
+        if verdict.status == "FAIL" and verdict.measurement is not None and _needs_words(verdict):
+            options.say(verdict.message)
     undecided = document["undecided"]
     if undecided:
         options.say(f"{undecided} of {len(verdicts)} limits undecided: {_first_reason(verdicts)}")
@@ -109,6 +109,11 @@ def _under(limit, truth: str):
         return limit
     variant = ", ".join(part for part in (limit.variant, f"truth {truth}") if part)
     return replace(limit, conditions=replace(limit.conditions, scattering=truth), variant=variant)
+
+
+def _needs_words(verdict) -> bool:
+    """Whether the number does not explain a failure: there is none, or it is one input's of many."""
+    return isnan(verdict.measurement.value) or verdict.scene == "stress"
 
 
 def _stress(entries, args: argparse.Namespace, report) -> list:

@@ -36,6 +36,8 @@ def run(args: argparse.Namespace) -> int:
     chosen = of_effects(args.effects)
     if args.function:
         chosen = named(args.function, chosen)
+    if not chosen:
+        raise UsageError(f"{', '.join(args.effects)}: no function of arithmetic, nothing to stress")
     if args.input:
         if len(chosen) > 1:
             raise UsageError(
@@ -47,6 +49,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _all(chosen: list, args: argparse.Namespace) -> int:
+    from lightmeter.device import fingerprint
     from lightmeter.realtime.device import Device
     from lightmeter.realtime.stress.search import Stress
     from lightmeter.reports.results_json import to_json
@@ -60,8 +63,7 @@ def _all(chosen: list, args: argparse.Namespace) -> int:
         for done, subject in enumerate(chosen):
             report("functions", done, len(chosen))
             functions.append(Stress(device, subject.name, subject.twin, subject.folder, args.seed).run())
-    facts = {"gl_renderer": device.renderer, "gl_version": device.version}
-    results = StressResults(SCHEMA, args.seed, facts, functions)
+    results = StressResults(SCHEMA, args.seed, fingerprint(device.renderer, device.version), functions)
     page = write_stress(folder, results)
     if args.json:
         sys.stdout.write(to_json(results))

@@ -39,6 +39,7 @@ def test_one_input(run):
 
 def test_what_is_wrong_is_said(refused):
     assert "did you mean 'cook_torrance'" in refused("stress", "cook_torance")
+    assert "nothing to stress" in refused("stress", "supersampling")
     assert "did you mean 'd_ggx'" in refused("stress", "--function", "d_gx")
     assert "name the function" in refused("stress", "--input", *INPUT)
     assert "there is no alpha" in refused("stress", "--function", "d_ggx", "--input", *INPUT[:2])
@@ -61,6 +62,7 @@ def test_the_gate_holds_limits_on_it(run, tmp_path):
     (tmp_path / "lightmeter.toml").write_text(held + 'format = "fp16"\n')
     failed = run("gate")
     assert failed.code == 1 and "0 PASS, 1 FAIL" in failed.out
+    assert "lightmeter stress --function 'shared/d_ggx' --input" in failed.err
     (verdict,) = run("gate", "--json").json["verdicts"]
     words = shlex.split(re.search(r"`lightmeter (.*)`", verdict["message"])[1])
     assert float(next(w for w in words if w.startswith("alpha=")).removeprefix("alpha=")) < 2.3e-3

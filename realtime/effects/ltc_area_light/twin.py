@@ -39,7 +39,7 @@ TWINS = (
         "polygon_irradiance.glsl",
         "angle_over_sine",
         "float",
-        (Argument("x", "float", uniform(-0.9999, 1), (-0.5, 0.0, 0.5, 1.0)),),
+        (Argument("x", "float", uniform(-0.9999, 1), (-0.5, 0.0, 0.5, 1.0), kind="cosine"),),
         angle_over_sine,
         roundings=6 + 2.5 + 4,
         why="three products and sums in the divisor, the division (2.5); 1 − y² (2) and inversesqrt (2). The fit's own "
