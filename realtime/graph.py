@@ -270,7 +270,9 @@ def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: lis
     others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
     others += [e.name for e in candidates if effect.part and e.part == effect.part][:1]
     if others:
-        return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(effect.terms)} already")
+        given = {term for step in steps for term in step.writes}
+        terms = [term for term in effect.terms if term in given or term not in DRAWN_TERMS]
+        return LeftOut(effect.name, f"{', '.join(others)} gives {', '.join(terms)} already")
     out = [e.name for e in candidates if e.name in choice.without and set(e.terms) & set(effect.terms)]
     if out:
         return LeftOut(effect.name, f"takes the place of {', '.join(out)} where it is asked for: --use {effect.name}")
