@@ -59,7 +59,7 @@ vec3 bent_normal(float roughness, float strength, vec3 grain, vec3 n, vec3 v) {
 
 // The roughness of a round lobe over about as large a solid angle, α_t·α_b.
 float round_roughness(float roughness, float strength) {
-    if (strength <= 0.0) return roughness;
+    if (strength <= 0.0) return roughness; // a device's roots need not be exact
     float alpha = roughness * roughness;
     return sqrt(sqrt(alpha * mix(alpha, 1.0, strength * strength)));
 }
