@@ -54,8 +54,8 @@ def test_white_under_layers_is_white_in_a_furnace(device, layers):
 def test_a_polished_coat_mirrors_the_map_sharply(device):
     """Over black: F(n·v) times the map along the mirror direction, on either side of an edge in the map. Nearer
     than 8° nothing is said: the cube's texels are 1.4° wide, and a direction of the lobe stands for as much. Beyond,
-    GGX of α = 10⁻³ has α²/(α² + tan² 4°) = 2·10⁻⁴ of its facets, half of them across the edge, where the map is 4 times as
-    bright: 3·10⁻⁴. Float32's cosine and the map's bilinear texels are within the rest."""
+    GGX of α = 10⁻³ has α²/(α² + tan² 4°) = 2·10⁻⁴ of its facets, half of them across the edge, where the map is 4 times
+    as bright: 3·10⁻⁴. Float32's cosine and the map's bilinear texels are within the rest."""
     made, points = lit(device, ball(SIDES, **BLACK, clearcoat=1.0, clearcoat_roughness=0.0), frame=(32, 32))
     normal, view = points.normal.astype(float), points.view.astype(float)
     cosine = np.sum(normal * view, axis=-1)
