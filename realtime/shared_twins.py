@@ -251,6 +251,26 @@ def d_ggx_anisotropic(h, along, across_it):
     return anisotropy.d_ggx(h[0], h[1], h[2], along, across_it)
 
 
+def with_grain_seen(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[np.ndarray]:
+    """A grain across the normal, seen from above the surface."""
+    roughness, strength, grain, n, v = inputs
+    n, v, _ = above(rng, [n, v, v])
+    return [roughness, strength, across_normal(grain, n), n, v]
+
+
+def bent_normal(roughness, strength, grain, n, v):
+    """What v has in the plane of the grain and n, mixed with n."""
+    kept = (1 - strength * (1 - roughness)) ** 4
+    in_plane = grain * np.sum(grain * v, axis=0) + n * np.sum(n * v, axis=0)
+    return np.where(strength > 0, arrays.normalize(in_plane * (1 - kept) + n * kept), n)
+
+
+def round_roughness(roughness, strength):
+    """(α_t·α_b)^¼."""
+    along, across_it = anisotropy.alphas(anisotropy.Grain(strength, strength), roughness**2)
+    return np.where(strength > 0, (along * across_it) ** 0.25, roughness)
+
+
 GRAIN_LOBE_ROUNDINGS = 1 + 3 + 2 + 1 + 3 + (2 * (2.5 + 3) + 4 + 2.5) + (3 + 3 + 3 + 1 + 1 + 2.5) + 2
 """v + l, its square (3), inversesqrt (2) and the product, the components (3); D: two ratios and their squares' sum, all
 squared, three products and the division; masking: the stretched vector (3), its length (3 + 3), a product, a sum and
@@ -528,6 +548,27 @@ TWINS = (
         roundings=GRAIN_LOBE_ROUNDINGS,
         why="see GRAIN_LOBE_ROUNDINGS",
         arrange=with_grain,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "bent_normal",
+        "vec3",
+        (unit("roughness"), unit("strength"), towards("grain"), towards("n"), towards("v")),
+        bent_normal,
+        roundings=2 + 3 + 2 + (4 * 3 + 2) + 3 + 3 + 2 + 1,
+        why="the cross product (2), b·v (3), its product and the difference, what is kept (3, to the fourth power, and "
+        "two products), mix (3), the square (3), inversesqrt (2) and the product",
+        arrange=with_grain_seen,
+        cancels=1.0,
+    ),
+    Twin(
+        "anisotropy.glsl",
+        "round_roughness",
+        "float",
+        (unit("roughness"), unit("strength")),
+        round_roughness,
+        roundings=1 + 1 + 3 + 1 + 2 * 3,
+        why="two squares, mix (3), the product, two roots (3 each)",
     ),
     Twin(
         "sheen.glsl",

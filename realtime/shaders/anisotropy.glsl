@@ -44,3 +44,22 @@ float grain_lobe(float roughness, float strength, vec3 grain, vec3 n, vec3 v, ve
     float toward_l = n_dot_v * length(stretch * vec3(to_l.xy, n_dot_l));
     return d_ggx_anisotropic(h, stretch.x, stretch.y) * 0.5 / max(toward_v + toward_l, 1e-30);
 }
+
+// The normal at whose mirror direction an environment stands for the stretched lobe: bent from n towards the view's share
+// in the plane of the grain and n, where the lobe's facets lie (McAuley 2015, "Rendering the World of Far Cry 4"), the
+// more the stronger and the smoother (Khronos' glTF Sample Viewer). The view is above n, so that never nothing is left.
+vec3 bent_normal(float roughness, float strength, vec3 grain, vec3 n, vec3 v) {
+    if (strength <= 0.0) return n;
+    vec3 bitangent = cross(n, grain);
+    float kept = 1.0 - strength * (1.0 - roughness);
+    kept *= kept;
+    vec3 bent = mix(v - dot(bitangent, v) * bitangent, n, kept * kept);
+    return bent * inversesqrt(dot(bent, bent));
+}
+
+// The roughness of a round lobe over about as large a solid angle, α_t·α_b.
+float round_roughness(float roughness, float strength) {
+    if (strength <= 0.0) return roughness; // a device's roots need not be exact
+    float alpha = roughness * roughness;
+    return sqrt(sqrt(alpha * mix(alpha, 1.0, strength * strength)));
+}

@@ -28,7 +28,7 @@ STEP = 1e-6  # of the finite differences: relative; float64 leaves 1e-10 of the 
 
 NOT_TWINNED = {
     "ltc_area_light.glsl": {"cut_side", "add_side"},  # hand structures on: test_ltc.py
-    "split_sum.glsl": {"irradiance"},  # chooses which to look up: test_environments.py
+    "split_sum.glsl": {"irradiance", "under_lobe"},  # look up: test_environments.py, test_layers_under_maps.py
     "surface.glsl": {"load_surface"},  # fetches the G-buffer
     "stored.glsl": {  # packing.glsl's functions in the formats that are chosen: test_gbuffer_formats.py
         "depth_of",

@@ -1,5 +1,7 @@
 """The split sum: the environment filtered with the lobe, times the lobe's albedo; both baked."""
 
+from lightmeter.scenes.layers import COAT, GRAIN, SHEEN
+
 from ...effect import Effect, Knob, Knobs
 from ...environments.needed import same_everywhere
 
@@ -20,6 +22,7 @@ def defines(knobs: Knobs) -> dict[str, object]:
         "LEVELS": levels(knobs),
         "IRRADIANCE_SIDE": IRRADIANCE_SIDE if cube else None,
         "COEFFICIENTS": 9,
+        "BENT": knobs["grain"] == "bent",
         "COMPENSATION": COMPENSATIONS[str(knobs["compensation"])],
     }
 
@@ -31,7 +34,8 @@ EFFECT = Effect(
     "table; the base by irradiance.",
     citation="Karis 2013, Real Shading in Unreal Engine 4; Křivánek & Colbert 2008, Real-time Shading with Filtered "
     "Importance Sampling; Ramamoorthi & Hanrahan 2001; Fdez-Agüera 2019, A Multiple-Scattering Microfacet Model for "
-    "Real-Time Image-based Lighting",
+    "Real-Time Image-based Lighting; Guy & Agopian 2018, Physically Based Rendering in Filament (coat, sheen); McAuley "
+    "2015, Rendering the World of Far Cry 4 (bent normal)",
     knobs=(
         Knob(
             "size",
@@ -78,10 +82,18 @@ EFFECT = Effect(
             choices=tuple(COMPENSATIONS),
             sweep=tuple(COMPENSATIONS),
         ),
+        Knob(
+            "grain",
+            "round",
+            "An anisotropic lobe is looked up as a round one of its solid angle, or as one of the roughness across the "
+            "grain about a bent normal (McAuley 2015; Khronos' glTF Sample Viewer).",
+            choices=("round", "bent"),
+            sweep=("round", "bent"),
+        ),
     ),
     # Where there is a map it is what engines do, and taken before a constant; elsewhere it is not needed.
     rank=-1,
-    channels=("position", "normal", "roughness", "base_color", "metallic", "specular"),
+    channels=("position", "normal", "roughness", "base_color", "metallic", "specular", *COAT, *GRAIN, *SHEEN),
     unneeded=same_everywhere,
     defines=defines,
 )

@@ -2,13 +2,26 @@
 #include "brdf.glsl"
 #include "cube_atlas.glsl"
 #include "sh_irradiance.glsl"
+#ifdef LAYER_COAT
+#include "clear_coat.glsl"
+#endif
+#ifdef LAYER_GRAIN
+#include "anisotropy.glsl"
+#endif
+#ifdef LAYER_SHEEN
+#include "sheen.glsl"
+#endif
 uniform sampler2D radiance_atlas;
 uniform sampler2D irradiance_atlas;
 uniform sampler2D albedo_table; // x: n·v, y: roughness; scale and bias of F0, mean of Schlick's weight over the base
 
-// Where the lobe is looked up: the mirror direction. A layer that bends or adds a lobe has an axis of its own.
+// Where a lobe is looked up: the mirror direction, at the normal of its layer or one bent along its grain.
 vec3 lobe_axis(vec3 n, vec3 v) {
     return 2.0 * dot(n, v) * n - v;
+}
+
+vec3 under_lobe(vec3 n, vec3 v, float roughness) {
+    return atlas_towards(radiance_atlas, lobe_axis(n, v), roughness * float(LEVELS - 1), SPECULAR_SIDE);
 }
 
 vec3 albedos(float n_dot_v, float roughness) {
@@ -42,11 +55,31 @@ vec3 multiple_scattering(vec3 f0, vec3 f90, vec3 base, float specular, vec3 tabl
 }
 
 vec3 environment(Surface surface) {
-    vec3 axis = lobe_axis(surface.normal, surface.view);
-    vec3 mirrored = atlas_towards(radiance_atlas, axis, surface.roughness * float(LEVELS - 1), SPECULAR_SIDE);
-    return COMPENSATION(reflectance_f0(surface.base_color, surface.metallic, surface.specular),
-                        reflectance_f90(surface.metallic, surface.specular),
-                        diffuse_color(surface.base_color, surface.metallic), surface.specular,
-                        albedos(dot(surface.normal, surface.view), surface.roughness), mirrored,
-                        irradiance(surface.normal));
+    float n_dot_v = dot(surface.normal, surface.view);
+    vec3 facet = surface.normal;
+    float roughness = surface.roughness;
+#if defined(LAYER_GRAIN) && defined(BENT)
+    facet = bent_normal(roughness, surface.anisotropy, surface.anisotropy_direction, facet, surface.view);
+#elif defined(LAYER_GRAIN)
+    roughness = round_roughness(roughness, surface.anisotropy);
+#endif
+    vec3 value = COMPENSATION(reflectance_f0(surface.base_color, surface.metallic, surface.specular),
+                              reflectance_f90(surface.metallic, surface.specular),
+                              diffuse_color(surface.base_color, surface.metallic), surface.specular,
+                              albedos(n_dot_v, roughness), under_lobe(facet, surface.view, roughness),
+                              irradiance(surface.normal));
+#ifdef LAYER_SHEEN
+    // Its lobe is widest at grazing angles, nearer to the base's than to GGX's about the mirror direction.
+    float returned = sheen_albedo(n_dot_v, surface.sheen_roughness);
+    value = value * sheen_scaling(surface.sheen_color, returned, returned) +
+            surface.sheen_color * returned * irradiance(surface.normal);
+#endif
+#ifdef LAYER_COAT
+    // Its Fresnel term alone scales what it sees (Guy & Agopian 2018, Physically Based Rendering in Filament, on image
+    // based lights); seen from below its own horizon it has no lobe, as in the definition.
+    float coat_cosine = dot(surface.clearcoat_normal, surface.view);
+    vec3 mirrored = under_lobe(surface.clearcoat_normal, surface.view, surface.clearcoat_roughness);
+    value = mix(value, coat_cosine > 0.0 ? mirrored : vec3(0.0), coat_reflectance(surface.clearcoat, coat_cosine));
+#endif
+    return value;
 }
