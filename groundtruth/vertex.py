@@ -35,6 +35,8 @@ class Vertices:
         self.where = np.flatnonzero(points.shape.ravel() >= 0)
         self.count = len(self.where)
         self._check(points)
+        if self.count == 0:
+            return  # nothing is ever evaluated, and Dr.Jit computes with no empty arrays
         shape = mi.UInt32(self._rows(points.shape, np.uint32))
         triangle = mi.UInt32(self._rows(points.triangle, np.uint32))
         self.position = mi.Float(self._rows(points.position))
