@@ -20,8 +20,8 @@ from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.stiff.case import StiffCase
 
 SPP, BATCHES = 8, 8
-NOISY = 0.2
-"""Of the mean: a reference with more noise is said to have not converged. The plain scene has 4 %."""
+NOISY = 0.1
+"""Of the mean: beyond it an error of a tenth of the mean is lost in noise. The plain scene has 4 %."""
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Triangles that have no normal, no area, or another triangle in their place."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from lightmeter.scenes import shapes
@@ -52,6 +54,12 @@ def coplanar() -> Scene:
     )
 
 
+def coplanar_reversed() -> Scene:
+    """The same, named in the other order: what differs was decided by nothing else."""
+    scene = coplanar()
+    return replace(scene, shapes=scene.shapes[:-2] + scene.shapes[:-3:-1])
+
+
 def nothing() -> Scene:
     """No shape at all: the environment alone is seen."""
     plain = room()
@@ -63,5 +71,6 @@ CASES = {
     "no-area": StiffCase("triangles without area, some of them emissive", no_area),
     "duplicates": StiffCase("every vertex and triangle twice", duplicates),
     "coplanar": StiffCase("two surfaces in one place", coplanar),
+    "coplanar-reversed": StiffCase("the same two, named in the other order", coplanar_reversed, like="coplanar"),
     "no-objects": StiffCase("no shape", nothing),
 }

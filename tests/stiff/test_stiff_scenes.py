@@ -51,6 +51,11 @@ def test_the_reference_of_a_small_scene_is_not_trusted(findings):
     assert not findings["large"].words
 
 
+def test_surfaces_in_one_place_have_no_truth(findings):
+    """The order in which they are named decides the frame, and nothing that is seen depends on it."""
+    assert findings["coplanar-reversed"].frame_changed > 0.01
+
+
 def test_slow_convergence_is_said(findings):
     assert findings["white"].noise > stiff_scenes.NOISY
     assert "not converged" in findings["white"].words
