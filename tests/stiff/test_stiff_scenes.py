@@ -74,9 +74,9 @@ def test_a_fault_is_found(monkeypatch):
 
     def broken(device, case, seed, captured):
         sides = made(device, case, seed, captured)
-        if case.what == "broken":
-            sides.frame[2, 3, 0] = np.nan
-        return sides
+        frame = sides.frame.copy()
+        frame[2, 3, 0] = np.nan
+        return replace(sides, frame=frame)
 
     monkeypatch.setattr(stiff_scenes, "_render", broken)
     case = StiffCase("broken", room, size=(8, 8))
@@ -107,5 +107,5 @@ def test_a_texel_that_is_no_colour_is_located(value, words):
 
 
 def test_an_unknown_scene_is_named():
-    with pytest.raises(SceneError, match="did you mean 'offset'"):
+    with pytest.raises(SceneError, match="Did you mean 'offset'"):
         chosen(["ofset"])
