@@ -16,6 +16,8 @@ from typing import Literal, Protocol
 
 import numpy as np
 
+from lightmeter.scenes.texels import check_texels
+
 Vector = tuple[float, float, float]
 
 
@@ -69,6 +71,9 @@ class Texture:
         min_filter, mag_filter: the real-time side's filters; the truth always looks up level 0, bilinearly.
         texcoord: which set of texture coordinates.
         offset, rotation, scale: KHR_texture_transform; rotation in radians, anticlockwise.
+
+    Raises:
+        SceneError: a texel is not finite, or negative.
     """
 
     image: Image
@@ -81,6 +86,9 @@ class Texture:
     offset: tuple[float, float] = (0.0, 0.0)
     rotation: float = 0.0
     scale: tuple[float, float] = (1.0, 1.0)
+
+    def __post_init__(self):
+        check_texels(self.image.texels, self.image.name)
 
     @cached_property
     def matrix(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""`lightmeter stress [EFFECT…]`: where shading functions lose digits, or are not finite, on extreme inputs."""
+"""`lightmeter stress [EFFECT…]`: where shading functions lose digits, or scenes break, on extreme inputs."""
 
 import argparse
 import sys
@@ -20,6 +20,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="ARG=X,Y…",
         help="evaluate --function at this input: every argument, its components parted by commas",
     )
+    parser.add_argument(
+        "--scenes",
+        nargs="*",
+        metavar="SCENE",
+        help="stiff scenes in place of functions: these, or all; both sides of each are rendered and compared",
+    )
     parser.add_argument("--seed", type=options.whole, default=0, metavar="N", help="names the inputs (default 0)")
     parser.add_argument("-o", "--output", metavar="DIR", help="where the page goes (default lightmeter-out/stress)")
     options.add_json(parser)
@@ -31,6 +37,10 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"--seed: expected 0 to {(1 << 32) - 1}, got {args.seed}")
     if args.input and not args.function:
         raise UsageError("--input: name the function with --function")
+    if args.scenes is not None:
+        if args.effects or args.function:
+            raise UsageError("--scenes: it takes the place of effects and functions; leave them out")
+        return _scenes(args)
     from lightmeter.realtime.stress.naming import named, of_effects
 
     chosen = of_effects(args.effects)
@@ -76,6 +86,29 @@ def _all(chosen: list, args: argparse.Namespace) -> int:
     for line in fault_lines(results):  # whole, so that the command can be copied
         print(line)
     print(f"report: {page}")
+    return 0
+
+
+def _scenes(args: argparse.Namespace) -> int:
+    from lightmeter.scenes.stiff import CASES, chosen
+
+    cases = chosen(args.scenes)
+
+    from lightmeter.reports.results_json import to_json
+    from lightmeter.stiff_scenes import examine
+
+    findings = []
+    with progress_bar() as report:
+        for found in examine(cases, CASES, args.seed):
+            findings.append(found)
+            report("stiff scenes", len(findings), len(cases))
+    if args.json:
+        sys.stdout.write(to_json(findings))
+    else:
+        from lightmeter.reports.stiff_table import stiff_table
+        from lightmeter.terminal import console
+
+        console().print(stiff_table(findings))
     return 0
 
 

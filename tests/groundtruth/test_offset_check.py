@@ -1,4 +1,4 @@
-"""Scenes far from the origin: the float32 breakdown is found, and what is sound is not accused."""
+"""Scenes far from the origin, or small: the float32 breakdown is found, and what is sound is not accused."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from lightmeter.groundtruth import offset_check
 from lightmeter.groundtruth.offset_check import OffsetCheck, check_offset, is_far
 from lightmeter.scenes import library
 from lightmeter.scenes.load import load
-from lightmeter.scenes.moving import moved
+from lightmeter.scenes.moving import moved, scaled
 
 AWAY = np.array([1.0, 0.3, -1.0])
 SIZE = (24, 24)
@@ -26,6 +26,17 @@ def test_the_breakdown_far_from_the_origin_is_found(name):
         assert f"{found.reach:.3g} m from the origin" in found.words
         differences[distance] = found.difference
     assert min(differences.values()) > 0.1
+
+
+def test_the_breakdown_of_a_small_scene_is_found():
+    """0.1 mm is a tenth of the height of a Cornell box of a millimetre, and nothing to one of a kilometre."""
+    scene = load("cornell-box")
+    assert not is_far(scaled(scene, 2.0**10))
+    small = scaled(scene, 2.0**-10)
+    assert is_far(small)
+    found = check_offset(small, SIZE)
+    assert not found.holds, found
+    assert "scale the scene up" in found.words
 
 
 @pytest.mark.parametrize("name", ["torus", "cornell-box"])
