@@ -150,7 +150,7 @@ class Truth:
 
     @cached_property
     def doubt(self) -> str:
-        """Why nothing can be decided on this truth; "" where its own checks hold. Near the origin none is needed."""
+        """Why nothing can be decided on this truth; "" where its own checks hold. Most scenes need none."""
         from lightmeter.groundtruth.offset_check import check_offset, is_far
 
         if not is_far(self.scene):

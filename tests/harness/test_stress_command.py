@@ -79,3 +79,15 @@ def test_stress_limits_that_make_no_sense(refused, tmp_path):
     assert "did you mean 'grazing'" in said('metric = "faults"\nmax = 0\nregime = "grasing"\nfunction = "lambert"')
     assert "reaches no input" in said('metric = "digits"\nmin = 1\nalpha = 0.1\nfunction = "lambert"')
     assert "did you mean 'lambert'" in said('metric = "faults"\nmax = 0\neffect = "lamberd"')
+
+
+def test_stiff_scenes(run):
+    found = {f["name"]: f for f in run("stress", "--scenes", "nan-texel", "no-lights", "--json").json}
+    assert found["nan-texel"]["refused"]
+    assert "1 NaN" in found["nan-texel"]["words"]
+    assert found["no-lights"]["finite"]
+    table = run("stress", "--scenes", "inf-texel")
+    assert table.code == 0
+    assert "refused" in table.out
+    assert "did you mean 'nan-texel'" in run("stress", "--scenes", "nan-texl").err.lower()
+    assert "takes the place of effects" in run("stress", "gtao", "--scenes").err
