@@ -110,9 +110,10 @@ def test_a_store_that_cannot_be_written_is_one_message(run, monkeypatch, tmp_pat
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("LIGHTMETER_STORE", str(tmp_path / "file"))
     found = run("reference", "plane", "--size", "8x8", "--spp", "8", "-o", "out")
-    assert found.code == 2
+    assert found.code == 0, "a store saves work; that there is none is no reason to do none"
     assert "file" in found.err
     assert found.err.count("\n") == 1
+    assert (tmp_path / "out" / "manifest.json").exists()
 
 
 def test_without_a_command_the_help_is_on_stderr(run):
@@ -124,7 +125,20 @@ def test_without_a_command_the_help_is_on_stderr(run):
 
 @pytest.mark.parametrize(
     "command",
-    ["compare", "reference", "export", "sweep", "gate", "diff", "scenes", "effects", "store", "schema", "doctor"],
+    [
+        "compare",
+        "reference",
+        "export",
+        "sweep",
+        "gate",
+        "stress",
+        "diff",
+        "scenes",
+        "effects",
+        "store",
+        "schema",
+        "doctor",
+    ],
 )
 def test_every_command_explains_itself(run, command):
     found = run(command, "--help")
