@@ -43,7 +43,8 @@ compilation of its shaders. Times of a software rasteriser say little of a GPU's
 | --- | --- | --- | ---: | ---: | ---: |
 {rows}
 
-*whole*: the effect has no passes of its own; the frame with it, less the frame without.
+*whole*: the effect has no passes of its own; the frame with it, less the frame without, whose two medians differ by
+some milliseconds of noise. `supersampling` comes with one sample.
 
 {facts}.
 """
@@ -68,22 +69,22 @@ def scenes() -> list[Scene]:
     return [*map(load, names), replace(load("torus"), environment=built_in("studio"))]
 
 
-def taking(effect: str, among: list[Scene]) -> Plan | None:
-    """The first scene's plan in which the effect takes part."""
+def taking(effect: str, among: list[Scene]) -> tuple[Scene, Plan] | None:
+    """The first scene in whose plan the effect takes part, and that plan."""
     for scene in among:
         plan = compile_plan(scene, effects(), Choice(use=(effect,)))
         if effect in plan.effects:
-            return plan
+            return scene, plan
     return None
 
 
-def measured(device: Device, effect: str, plan: Plan, frames: int) -> Row:
+def measured(device: Device, effect: str, scene: Scene, plan: Plan, frames: int) -> Row:
     """The effect's passes, or the frame with it and without it."""
     renderer = Renderer(device, plan, SIZE)
     times = renderer.measure(frames)
     own, whole = times.of(effect), 0.0
     if own is None:
-        without = compile_plan(plan.true_scene, effects(), Choice(without=(effect,)))
+        without = compile_plan(scene, effects(), Choice(without=(effect,)))
         whole = times.frame.median - Renderer(device, without, SIZE).measure(frames).frame.median
     baked = renderer.baking.milliseconds.get(effect)
     return Row(effect, plan.terms_of(effect), plan.scene.name, own, whole, times.frame, baked)
@@ -109,11 +110,11 @@ def main() -> None:
     console, device, among = Console(), Device(), scenes()
     rows = []
     for name in sorted(effects(), key=lambda name: (effects()[name].terms, name)):
-        plan = taking(name, among)
-        if plan is None:
+        found = taking(name, among)
+        if found is None:
             console.print(f"{name}: no scene takes it")
             continue
-        rows.append(measured(device, name, plan, args.frames))
+        rows.append(measured(device, name, *found, args.frames))
         console.print(line(rows[-1]))
     facts = ", ".join(f"{key} {value}" for key, value in fingerprint(device.renderer, device.version).items())
     args.output.write_text(

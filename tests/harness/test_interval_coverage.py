@@ -61,7 +61,7 @@ def test_intervals_cover(pool, truth, gain):
         assert max(hits.values()) <= binom.ppf(1 - DOUBT, trials, 0.97), hits
 
 
-@pytest.mark.parametrize("gain", [1.0, 1.5])
+@pytest.mark.parametrize("gain", [1.0, pytest.param(1.5, marks=pytest.mark.slow)])
 def test_bounds_cover(pool, truth, gain):
     trials = 30
     tested = truth * gain
