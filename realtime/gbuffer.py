@@ -150,6 +150,11 @@ class GBuffer:
         return {f"LAYER_{layer.upper()}": True for layer in sorted(found)}
 
     @property
+    def samplers(self) -> dict[str, Any]:
+        """Its textures by the names that shaders read them by."""
+        return {f"gbuffer_{name}": texture for name, texture in self.textures.items()}
+
+    @property
     def place(self) -> dict[str, Any]:
         """Uniforms for shaders that read it and that change with the sample drawn: where a depth's pixel lies."""
         if "DEPTH_BITS" not in self._formats:
@@ -234,7 +239,7 @@ class GBuffer:
         target.clear()
         self._device.gl.enable_only(self._device.gl.NOTHING)
         set_uniforms(program, {"viewer": viewer(self._scene.camera)} | self.place | other.place)
-        bind(program, {f"gbuffer_{name}": texture for name, texture in other.textures.items()})
+        bind(program, other.samplers)
         self._device.draw(vertices, 3)
 
     def channel(self, name: str) -> np.ndarray:

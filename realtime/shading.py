@@ -80,7 +80,7 @@ class ShadingPass:
             self._uniforms[step] = Uniforms(program, self._values(step))
         self._uniforms[step].write()
         set_uniforms(program, self._stage.gbuffer.place)
-        textures = {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
+        textures = self._stage.gbuffer.samplers
         textures |= {f"{term}_buffer": buffers[term] for term in step.reads if term in buffers}
         if self._stage.scattered is not None:
             textures["scattered_light"] = self._stage.scattered.texture

@@ -70,7 +70,7 @@ class ScreenOcclusion:
     def draw(self, _light: int | None) -> None:
         """Fill the texture from what the G-buffer holds now."""
         device, gbuffer = self._stage.device, self._stage.gbuffer
-        buffers = {f"gbuffer_{name}": texture for name, texture in gbuffer.textures.items()}
+        buffers = gbuffer.samplers
         framebuffer, texture = self._found
         framebuffer.use()
         device.gl.enable_only(device.gl.NOTHING)

@@ -35,8 +35,8 @@ class Passes:
     def draw(self, _light: int | None) -> None:
         """Gather what is lit so far."""
         gbuffer = self._stage.gbuffer
-        textures = {f"gbuffer_{name}": texture for name, texture in gbuffer.textures.items()}
-        self._pass.draw(self._framebuffer, textures | {"scattered_light": self._scattered}, values=gbuffer.place)
+        textures = gbuffer.samplers | {"scattered_light": self._scattered}
+        self._pass.draw(self._framebuffer, textures, values=gbuffer.place)
 
     def defines(self, _light: int | None) -> dict[str, object]:
         """Nothing beyond the effect's own."""

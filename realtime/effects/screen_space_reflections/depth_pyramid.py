@@ -78,8 +78,7 @@ class DepthPyramid:
     def draw(self) -> None:
         """Build it from the G-buffer."""
         gbuffer = self._stage.gbuffer
-        textures = {f"gbuffer_{name}": texture for name, texture in gbuffer.textures.items()}
-        self._draw(0, self._targets[0], textures, gbuffer.place)
+        self._draw(0, self._targets[0], gbuffer.samplers, gbuffer.place)
         for finer, target in zip(self._levels, self._targets[1:], strict=False):
             self._draw(1, target, {"finer": finer})
         self._draw(2, self._target, {"levels": self._levels})

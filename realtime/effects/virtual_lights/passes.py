@@ -70,7 +70,9 @@ class Passes:
             if self._depths is not None:
                 self._depths.draw(self._lights.textures, range(self._first, self._count))
         if self._gather is not None:
-            self._gather.draw(self._interleaved_buffer, self._lights.textures | self._seen() | self._surface())
+            gbuffer = self._stage.gbuffer
+            textures = self._lights.textures | self._seen() | gbuffer.samplers
+            self._gather.draw(self._interleaved_buffer, textures, values=gbuffer.place)
 
     def defines(self, _light: None) -> dict[str, object]:
         """How many there are."""
@@ -88,9 +90,6 @@ class Passes:
 
     def _seen(self) -> dict[str, Any]:
         return {} if self._depths is None else {"virtual_depths": self._depths.texture}
-
-    def _surface(self) -> dict[str, Any]:
-        return {f"gbuffer_{name}": texture for name, texture in self._stage.gbuffer.textures.items()}
 
     def _pass(self, name: str, surface: dict[str, object] | None = None) -> FullscreenPass:
         fragment = source(name, self._defines | (surface or {}), self._folder)
@@ -114,8 +113,7 @@ class Passes:
         for rays in self._rays:
             views, seen = rays.views, self._maps[rays.views.tiles]
             seen.draw_tiles(views.matrices, views.tiles[0], () if views.excluded is None else (views.excluded,))
-            textures = {f"gbuffer_{name}": texture for name, texture in seen.textures.items()}
-            textures["rays"] = self._ray_table
+            textures = seen.samplers | {"rays": self._ray_table}
             values = {"viewer": views.position, "inverse_range_square": rays.inverse_range_square}
             self._place.draw(self._placed.framebuffer, textures, (start, 0, len(rays.texels), 1), values)
             start += len(rays.texels)
