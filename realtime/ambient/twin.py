@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..shadows.twin import before_the_light, project, views
 from ..shared_twins import alpha, color, cosine, towards, unit
 from ..twin import Argument, Twin, logarithmic, uniform
 
@@ -38,12 +37,6 @@ def surface_likeness(offset, normal, other, thickness) -> np.ndarray:
     """1 within the plane and for the same normal; 0 off it or for normals a right angle apart."""
     from_plane = np.abs(np.sum(offset * normal, axis=0))
     return np.maximum(1 - from_plane / thickness, 0) * np.maximum(np.sum(normal * other, axis=0), 0) ** 4
-
-
-def screen_place(view_projection, place):
-    """Whether it lies before the viewer, and where on the screen."""
-    before, coordinate = project(view_projection, place)
-    return before, coordinate[:2]
 
 
 OCCLUSION = (unit("visibility"), cosine("n_dot_v"), alpha("alpha"))
@@ -150,19 +143,5 @@ TWINS = (
         roundings=3 + 2.5 + 1 + 4 * 3 + 3,
         why="a scalar product (3), the division (2.5), 1 − x; a fourth power (12), three products",
         cancels=1.0,
-    ),
-    Twin(
-        "screen_place.glsl",
-        "screen_place",
-        "bool",
-        (
-            Argument("view_projection", "mat4", views),
-            Argument("place", "vec3", uniform(-5, 5, 3), ((0.0, 0.0, -1.0),)),
-            Argument("where", "vec2", out=True),
-        ),
-        screen_place,
-        roundings=4 + 2.5 + 2,
-        why="a product and three sums, the division (2.5), the half and its sum",
-        signs=before_the_light,
     ),
 )

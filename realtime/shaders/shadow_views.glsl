@@ -1,5 +1,6 @@
 // The views of a light's shadow maps, and where on them a surface point lies.
 #include "cube_face.glsl"
+#include "project.glsl"
 uniform mat4 shadow_matrices[VIEWS];  // world to clip space
 uniform float shadow_texels[VIEWS];   // metres per texel; times the distance for a light with a position
 uniform vec4 shadow_light;            // position, w = 1; or the direction towards it, w = 0
@@ -19,13 +20,6 @@ float bias_distance(float n_dot_l, float n_dot_a, float l_dot_a, float texel, fl
 // How far a point moves along its normal: most where the light grazes it (Holbert 2011).
 float normal_distance(float n_dot_l, float texel, float amount) {
     return texel * amount * sqrt(max(1.0 - n_dot_l * n_dot_l, 0.0));
-}
-
-// Window coordinates 0…1 of a point in one view; false behind the light.
-bool project(mat4 view, vec3 point, out vec3 coordinate) {
-    vec4 clip = view * vec4(point, 1.0);
-    coordinate = clip.xyz / clip.w * 0.5 + 0.5;
-    return clip.w > 0.0;
 }
 
 // A point as its maps see it.

@@ -138,7 +138,7 @@ TWINS = (
         defines=DEFINES,
     ),
     Twin(
-        "shadow_views.glsl",
+        "project.glsl",
         "project",
         "bool",
         (
@@ -150,7 +150,6 @@ TWINS = (
         roundings=4 + 2.5 + 2,
         why="a product and three sums, the division (2.5), the half and its sum",
         signs=before_the_light,
-        defines=DEFINES,
     ),
     Twin(
         "shadow_views.glsl",

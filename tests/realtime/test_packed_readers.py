@@ -20,8 +20,8 @@ from lightmeter.scenes.load import load
     ],
 )
 def test_places_stored_as_depths_are_found(device, scene, name, knobs):
-    """A float holds a depth to 6e-8 of it, which moves a place by far less than a pixel: only what hangs on a comparison
-    may change, at few pixels. A reader that is not told where a depth's pixel lies errs by 12 % of the mean and more.
+    """A float holds a depth to 6e-8 of it, which moves a place by far less than a pixel: only what hangs on a
+    comparison may change, at few pixels. A reader that is not told where a depth's pixel lies errs by 12 % of the mean.
     """
 
     def frame(**packed):

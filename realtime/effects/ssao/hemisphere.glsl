@@ -1,5 +1,5 @@
 // Which share of a hemisphere's places lies before what the screen shows there (de Vries 2015, Learn OpenGL: SSAO).
-#include "screen_place.glsl"
+#include "project.glsl"
 #include "shown.glsl"
 uniform mat4 view_projection;
 uniform vec3 camera_right;
@@ -31,10 +31,10 @@ vec4 occlusion(Surface surface, ivec2 pixel) {
     float hidden = 0.0;
     for (int i = 0; i < SAMPLES; ++i) {
         vec3 offset = radius * around_normal(kernel[i], along, surface.normal);
-        vec2 where;
-        if (!screen_place(view_projection, surface.position + offset, where)) continue;
+        vec3 where;
+        if (!project(view_projection, surface.position + offset, where)) continue;
         vec3 shown;
-        if (!shown_at(ivec2(floor(where * vec2(screen_size))), shown)) continue;
+        if (!shown_at(ivec2(floor(where.xy * vec2(screen_size))), shown)) continue;
         float nearer = dot(shown - surface.position, camera_back); // to the viewer than the point
         bool before = nearer >= dot(offset, camera_back) + bias;
         hidden += before ? range_check(nearer, radius) : 0.0;
