@@ -99,12 +99,17 @@ def add_truth(parser: argparse.ArgumentParser, more: Sequence[str] = ()) -> None
 
 def add_choice(parser: argparse.ArgumentParser) -> None:
     """Which effects take part, with which knobs."""
-    parser.add_argument("--only", metavar="EFFECT,…", default="", help="take just these effects")
-    parser.add_argument("--without", metavar="EFFECT,…", default="", help="leave these effects out")
-    parser.add_argument("--use", metavar="EFFECT,…", default="", help="prefer these among effects for the same term")
+    add_names(parser, "--only", "EFFECT", help="take just these effects")
+    add_names(parser, "--without", "EFFECT", help="leave these effects out")
+    add_names(parser, "--use", "EFFECT", help="prefer these among effects for the same term")
     parser.add_argument(
         "--set", metavar="EFFECT.KNOB=VALUE", action="append", default=[], help="set a knob; may be repeated"
     )
+
+
+def add_names(parser: argparse._ActionsContainer, option: str, what: str, *, help: str) -> None:
+    """A list of names with commas; given more than once, the lists are one."""
+    parser.add_argument(option, metavar=f"{what},…", type=names, action="extend", default=[], help=help)
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -204,15 +209,18 @@ def words(args: argparse.Namespace) -> Words:
     """The choice of effects.
 
     Raises:
-        UsageError: where a setting is not EFFECT.KNOB=VALUE.
+        UsageError: where a setting is not EFFECT.KNOB=VALUE, or two are of the same knob and differ.
     """
     settings: dict[str, dict[str, Any]] = {}
     for text in args.set:
         match = re.fullmatch(r"\s*([^.=\s]+)\.([^.=\s]+)\s*=\s*(.+?)\s*", text)
         if not match:
             raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
-        settings.setdefault(match[1], {})[match[2]] = match[3]
-    return Words(names(args.only), names(args.without), names(args.use), settings)
+        effect, knob, value = match.groups()
+        before = settings.setdefault(effect, {}).setdefault(knob, value)
+        if before != value:
+            raise UsageError(f"--set: {effect}.{knob} is set to {before} and to {value}; give one of them")
+    return Words(tuple(args.only), tuple(args.without), tuple(args.use), settings)
 
 
 def check_seconds(seconds: float | None, name: str = "--seconds") -> None:

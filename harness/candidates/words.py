@@ -42,9 +42,7 @@ def add_candidates(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--timeout", type=options.number, metavar="S", help=f"seconds for a command (default {DEFAULT_TIMEOUT:g})"
     )
-    group.add_argument(
-        "--register", metavar="FAULT,…", default="", help=f"correct these before measuring: {', '.join(CORRECTABLE)}"
-    )
+    options.add_names(group, "--register", "FAULT", help=f"correct these before measuring: {', '.join(CORRECTABLE)}")
     group.add_argument("--no-background", action="store_true", help="leave out pixels that see no surface")
 
 
@@ -135,14 +133,13 @@ def _with_options(candidate: Candidate, args: argparse.Namespace) -> Candidate:
     if args.timeout is not None:
         options.check_seconds(args.timeout, "--timeout")
         candidate = replace(candidate, timeout=args.timeout)
-    faults = options.names(args.register)
-    for fault in faults:
+    for fault in args.register:
         if fault == "background":
             raise UsageError("--register: a missing background cannot be made up; leave it out with --no-background")
         if fault not in CORRECTABLE:
             raise UsageError(f"--register: there is no fault {fault!r} to correct; {nearest(fault, CORRECTABLE)}")
-    if faults:
-        candidate = replace(candidate, register=faults)
+    if args.register:
+        candidate = replace(candidate, register=tuple(args.register))
     if args.no_background:
         candidate = replace(candidate, unsupported=candidate.unsupported | Unsupported(background=True))
     return candidate

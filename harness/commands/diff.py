@@ -14,7 +14,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The images, how they are to be taken, output."""
     parser.add_argument("tested", metavar="A", help="the tested image: EXR, PNG or HDR")
     parser.add_argument("reference", metavar="B", help="the reference")
-    parser.add_argument("--metric", metavar="NAME,…", default="", help="just these (default: all that make sense)")
+    options.add_names(parser, "--metric", "NAME", help="just these (default: all that make sense)")
     parser.add_argument("--ppd", type=options.number, metavar="N", help="pixels per degree, for FLIP (default 67.0)")
     parser.add_argument(
         "--exposure",
@@ -44,14 +44,13 @@ def run(args: argparse.Namespace) -> int:
     from lightmeter.metrics.registry import find_metric
     from lightmeter.report_folder import write_folder
 
-    names = options.names(args.metric)
-    for name in names:
+    for name in args.metric:
         find_metric(name)
     ppd = PIXELS_PER_DEGREE if args.ppd is None else args.ppd
     tested = image_pair.read(Path(args.tested), args.transfer, args.layer)
     reference = image_pair.read(Path(args.reference), args.transfer, args.reference_layer)
     images = image_pair.pair(tested, reference, args.exposure)
-    results = difference.difference(images, names, ppd)
+    results = difference.difference(images, args.metric, ppd)
     folder = options.output_folder(args.output or "lightmeter-out/diff")
     curve = difference.display_curve(images)
     report = write_folder(folder, results, [difference.picture(images, ppd)], curve)

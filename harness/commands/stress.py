@@ -17,12 +17,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--input",
         nargs="+",
+        action="extend",
         metavar="ARG=X,Y…",
         help="evaluate --function at this input: every argument, its components parted by commas",
     )
     parser.add_argument(
         "--scenes",
         nargs="*",
+        action="extend",
         metavar="SCENE",
         help="stiff scenes in place of functions: these, or all; both sides of each are rendered and compared",
     )

@@ -31,6 +31,7 @@ WRONG = [
     (("compare", "plane", "--spp", "8", "--seconds", "1"), "one of them"),
     *((("compare", "plane", "--seed", seed), "--seed") for seed in ("-1", "4294967296", "x")),
     *((("compare", "plane", "--set", word), "EFFECT.KNOB=VALUE") for word in ("x", "x=1", "shadow_map.=1", ".a=1", "")),
+    (("compare", "plane", "--set", "a.b=1", "--set", "c.d=1", "--set", "a.b=2"), "a.b is set to 1 and to 2"),
     ((*COMPARE, "--set", "shadow_mp.resolution=64"), "'shadow_map'"),
     ((*COMPARE, "--set", "shadow_map.resoltion=64"), "'resolution'"),
     ((*COMPARE, "--set", "shadow_map.resolution=-1"), "[16, 8192]"),
