@@ -122,6 +122,7 @@ class Sweeping:
         reference = self._truth.reference
         times = [summarise(item.recordings) for listed in self._measured.values() for item in listed]
         swept = [self._swept(name, listed) for name, listed in self._measured.items() if listed]
+        doubts = [self._truth.doubt] if self._truth.doubt else []
         return found.Sweep(
             schema=found.SCHEMA,
             scene=self._truth.scene.name,
@@ -136,7 +137,7 @@ class Sweeping:
             ),
             effects=tuple(found.ranked(effect, self._curve) for effect in swept),
             path_tracer=tuple(self._curve),
-            notes=(*self._truth.scene.notes, *self._notes(times), *self._of_others),
+            notes=(*self._truth.scene.notes, *doubts, *self._notes(times), *self._of_others),
             complete=self._complete,
             others=self._others,
         )

@@ -31,12 +31,15 @@ def run(args: argparse.Namespace) -> int:
     store = None if args.no_store else Store(say=options.say)
     with progress_bar() as report:
         how = {"store": store, "scattering": args.truth, "report": report, "say": options.say}
-        reference = Truth(scene, size, budget, args.seed, **how).reference
+        truth = Truth(scene, size, budget, args.seed, **how)
+        reference, doubt = truth.reference, truth.doubt
         written = reference_folder.save(target, scene, reference)
-    facts = _facts(scene.name, size, reference, target, written)
+    facts = _facts(scene.name, size, reference, target, written) | {"doubt": doubt}
     print(json.dumps(facts, indent=2, ensure_ascii=False) if args.json else _sentences(facts))
     if reference.nonfinite:
         options.say(f"{reference.nonfinite} pixels of the reference are not finite; nothing can be measured against it")
+    if doubt:
+        options.say(doubt)
     return 0
 
 
