@@ -11,6 +11,7 @@ from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Series
 from lightmeter.scenes.errors import shown
 from lightmeter.scenes.model import Scene
+from lightmeter.scenes.true_surface import is_true_surface, true_surface
 
 MANIFEST = "manifest.json"
 SCHEMA = 1
@@ -71,12 +72,10 @@ def load(
         ReferenceFolderError: with what is wrong and how to mend it.
     """
     manifest = _manifest(folder)
-    again = f"make it again with `lightmeter reference {scene.name} -o {folder}`"
+    surface = "--true-surface " if is_true_surface(scene) else ""
+    again = f"make it again with `lightmeter reference {scene.name} {surface}-o {folder}`"
     if manifest["scene_key"] != content.scene_key(scene):
-        raise ReferenceFolderError(
-            f"{folder / MANIFEST}: the reference is of another scene, or of an earlier state of it "
-            f"(its scene is {manifest['scene']!r}, the one asked for {scene.name!r}); {again}"
-        )
+        raise ReferenceFolderError(f"{folder / MANIFEST}: {_of_another(manifest, scene)}{again}")
     width, height = manifest["size"]
     if manifest["truth"] != scattering:
         raise ReferenceFolderError(
@@ -105,6 +104,19 @@ def load(
     of = Series.of(REFERENCE, scene, (width, height), manifest["spp"], manifest["seed"], scattering)
     found = collect(images, of, manifest["seconds"], len(images), scattering)
     return Reference(**{**vars(found), "key": manifest["key"]})
+
+
+def _of_another(manifest: dict, scene: Scene) -> str:
+    """What is wrong with a reference whose scene is not the one asked for; a remedy follows."""
+    scenes = f"its scene is {manifest['scene']!r}, the one asked for {scene.name!r}"
+    if is_true_surface(scene):
+        return (
+            "an effect draws another surface than the true one, and the reference is not of the true one, or of "
+            f"another scene, or of an earlier state of it ({scenes}); "
+        )
+    if manifest["scene_key"] == content.scene_key(true_surface(scene)):
+        return "the reference is of the true surface, and no effect draws another; prefer one with `--use`, or "
+    return f"the reference is of another scene, or of an earlier state of it ({scenes}); "
 
 
 _EXPECTED = {

@@ -28,9 +28,14 @@ def has_true_surface(scene: Scene) -> bool:
     return any(shape.form is not None for shape in scene.shapes)
 
 
+def is_true_surface(scene: Scene) -> bool:
+    """Whether the scene is one that `true_surface` made."""
+    return scene in _are_true
+
+
 def true_surface(scene: Scene) -> Scene:
     """The scene with its true surface; the scene itself where it has that already, or where no shape has a form."""
-    if scene in _are_true or not has_true_surface(scene):
+    if is_true_surface(scene) or not has_true_surface(scene):
         return scene
     if scene not in _true:
         steps, forms = FINE, sum(shape.form is not None for shape in scene.shapes)

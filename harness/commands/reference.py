@@ -14,6 +14,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     options.add_scene(parser)
     options.add_budget(parser)
     options.add_truth(parser)
+    parser.add_argument(
+        "--true-surface",
+        action="store_true",
+        help="of the shapes' true surface: what `compare --reference` needs with an effect that draws another, such as "
+        "flat_shading",
+    )
     parser.add_argument("-o", "--output", metavar="DIR", help="the folder (default lightmeter-out/SCENE-reference)")
     options.add_store(parser)
     options.add_json(parser)
@@ -24,9 +30,11 @@ def run(args: argparse.Namespace) -> int:
     size, budget = options.size(args.size), options.budget(args)
     from lightmeter.groundtruth import folder as reference_folder
     from lightmeter.groundtruth.store import Store
+    from lightmeter.scenes.true_surface import true_surface
     from lightmeter.truth import Truth
 
     scene = options.scene(args)
+    scene = true_surface(scene) if args.true_surface else scene
     target = options.output_folder(args.output or f"lightmeter-out/{scene.name}-reference")
     store = None if args.no_store else Store(say=options.say)
     with progress_bar() as report:

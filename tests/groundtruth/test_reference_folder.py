@@ -8,8 +8,11 @@ import pytest
 
 from lightmeter.groundtruth import folder
 from lightmeter.groundtruth.batches import collect, series
+from lightmeter.groundtruth.content import scene_key
 from lightmeter.groundtruth.folder import ReferenceFolderError
 from lightmeter.scenes.model import Environment, Scene, Shape
+from lightmeter.scenes.shapes.forms import Sphere
+from lightmeter.scenes.true_surface import true_surface
 
 from .small_scenes import WHITE, floor, looking
 
@@ -19,6 +22,7 @@ SCENE = Scene(
     looking((0, 1, 2), (0, 0, 0), yfov=0.8),
     environment=Environment((1, 1, 1)),
 )
+BALL = Sphere(0.5)
 
 
 @pytest.fixture
@@ -38,6 +42,19 @@ def test_it_comes_back(saved):
     assert (again.spp, again.seed, again.seconds, again.key) == (32, 4, 12.5, reference.key)
     assert told == []
     assert len(folder.load(path, replace(SCENE, name="renamed")).batches) == 8
+
+
+def test_of_the_true_surface_and_of_the_surface_as_given_one_does_not_stand_for_the_other(saved, tmp_path):
+    _, reference = saved
+    ball = replace(SCENE, shapes=(Shape("ball", BALL.mesh(8), WHITE, form=BALL),))
+    true = true_surface(ball)
+    folder.save(tmp_path / "given", ball, replace(reference, scene_key=scene_key(ball)))
+    folder.save(tmp_path / "true", true, replace(reference, scene_key=scene_key(true)))
+    with pytest.raises(ReferenceFolderError, match=r"the true one.*lightmeter reference room --true-surface -o"):
+        folder.load(tmp_path / "given", true)
+    with pytest.raises(ReferenceFolderError, match=r"no effect draws another.*`--use`.*lightmeter reference room -o"):
+        folder.load(tmp_path / "true", ball)
+    assert len(folder.load(tmp_path / "given", ball).batches) == len(folder.load(tmp_path / "true", true).batches) == 8
 
 
 def test_another_scene_size_or_version_is_told(saved):

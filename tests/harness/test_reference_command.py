@@ -65,6 +65,16 @@ def test_a_damaged_batch_in_the_store_is_named_and_made_again(run, tmp_path, mon
     assert all(np.array_equal(a, b) for a, b in pairs)
 
 
+def test_an_effect_that_draws_another_surface_takes_a_reference_of_the_true_one(run):
+    small = ("control", "--size", "16x16", "--spp", "8")
+    assert run("reference", *small, "--true-surface", "-o", "truth").code == 0
+    compare = ("compare", *small, "--use", "flat_shading", "--no-shares", "-o", "out", "--reference", "truth")
+    found = run(*compare, "--json")
+    assert found.code == 0, found.err
+    assert found.json["reference"]["cached"]
+    assert "flat_shading" in {effect["effect"] for effect in found.json["effects"]}
+
+
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory) -> list[np.ndarray]:
     """What an undisturbed run gives, in a process of its own."""
