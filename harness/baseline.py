@@ -19,6 +19,7 @@ from pathlib import Path
 from lightmeter.device import Fingerprint
 from lightmeter.failures import UsageError
 from lightmeter.metrics.sequential import Bound
+from lightmeter.reports.one_step import write_text
 
 SCHEMA = 1
 SAME_KIND, OTHER_KIND = 0.005, 0.02
@@ -66,9 +67,7 @@ class Baseline:
             "devices": {name: found for name, found in self.devices.items() if name in used},
             "values": {key: asdict(value) for key, value in self.values.items()},
         }
-        partial = path.with_name(f".{path.name}.part")
-        partial.write_text(json.dumps(document, indent=2, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
-        partial.replace(path)
+        write_text(path, json.dumps(document, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
 
     def tolerance(self, stored: Stored, here: str, device: Fingerprint) -> tuple[float, str]:
         """What is added to a regression on this device, and the rule in words; 0 and "" on the baseline's own."""

@@ -1,12 +1,12 @@
 """A scene written as the files that another engine reads."""
 
 import json
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from lightmeter.reports.image_files import write_exr
+from lightmeter.reports.one_step import in_one_step
 from lightmeter.scenes.environments import as_seen
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.export import ENVIRONMENT_FILE, camera_document, gltf_files
@@ -77,14 +77,6 @@ def _json(content: dict[str, Any], scene: Scene) -> bytes:
 
 
 def _write(path: Path, data: bytes) -> Path:
-    """A reader sees the old file or the whole new one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
+    with in_one_step(path) as partial:
         partial.write_bytes(data)
-        partial.replace(path)
-    except OSError as error:  # which would name the partial file
-        raise OSError(error.errno, f"cannot be written ({error.strerror})", str(path)) from None
-    finally:
-        partial.unlink(missing_ok=True)
     return path

@@ -17,17 +17,8 @@ def write_folder(folder: Path, results: Results, pairs: Sequence[Pair], curve: D
     """Write it all; gives the report's path. Each file is written in one step.
 
     Raises:
-        OSError, ImageError: it cannot be written; names the file or the folder.
+        OSError, ImageError: it cannot be written; names the file.
     """
-    try:
-        return _write(folder, results, pairs, curve)
-    except OSError as error:
-        if error.filename is None:  # a full disk is met in writing, where the system no longer knows the name
-            raise OSError(error.errno, error.strerror, str(folder)) from None
-        raise
-
-
-def _write(folder: Path, results: Results, pairs: Sequence[Pair], curve: DisplayCurve | None) -> Path:
     heatmaps = folder / "heatmaps"
     heatmaps.mkdir(parents=True, exist_ok=True)
     write_json(folder / "results.json", results)

@@ -1,6 +1,5 @@
 """Verdicts as Markdown that fits a comment on a pull request, with small heatmaps beside it."""
 
-import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -9,6 +8,7 @@ import numpy as np
 
 from lightmeter.reports.gate_table import shown
 from lightmeter.reports.heatmap import colourise, map_for
+from lightmeter.reports.one_step import write_text
 from lightmeter.reports.pictures import ErrorMap
 from lightmeter.reports.verdict import Verdict
 
@@ -37,10 +37,7 @@ def write_markdown(path: Path, verdicts: Sequence[Verdict], maps: Maps, confiden
     for number, key in enumerate(wanted, 1):
         pictures[key] = f"{path.stem}.{number}.png"
         write_small(path.with_name(pictures[key]), maps[key])
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    partial.write_text(to_markdown(ordered, pictures, confidence, seconds), encoding="utf-8")
-    partial.replace(path)
-    return path
+    return write_text(path, to_markdown(ordered, pictures, confidence, seconds))
 
 
 def to_markdown(

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from lightmeter.reports.one_step import in_one_step
 from lightmeter.reports.pictures import ErrorMap
 
 if TYPE_CHECKING:
@@ -130,11 +131,10 @@ def write_heatmap(
     mask: npt.NDArray[np.bool_] | None = None,
 ) -> Path:
     """Write `draw_heatmap(…)` as PNG, in one step."""
-    target = Path(path)
-    partial = target.with_name(f".{target.name}.{os.getpid()}.part")
-    draw_heatmap(error, title, limits=limits, mask=mask).save(partial, format="PNG", compress_level=2)
-    partial.replace(target)
-    return target
+    sheet = draw_heatmap(error, title, limits=limits, mask=mask)
+    with in_one_step(path) as partial:
+        sheet.save(partial, format="PNG", compress_level=2)
+    return Path(path)
 
 
 _PAPER = (255, 255, 255)

@@ -1,15 +1,10 @@
 """The report as one HTML file that opens from disk, without network, in any current browser.
 
-Style, scripts and HDR pictures are inside the file. Its content security policy forbids every request, and every
-script but its own (by hash), so that nothing in a scene's name or a driver's string can run or call home.
+Style, scripts and HDR pictures are inside the file; see `page_file` for what it may do.
 """
 
-import base64
-import hashlib
-import json
 import os
 from collections.abc import Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +15,9 @@ from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.embedded_data import pack_image, pack_mask
 from lightmeter.reports.engine_strip import engine_strip
 from lightmeter.reports.heatmap import colour_map, map_for
+from lightmeter.reports.one_step import write_text
 from lightmeter.reports.page_content import page_content
+from lightmeter.reports.page_file import asset, script_hash, script_safe, template
 from lightmeter.reports.pictures import ErrorMap, Pair
 from lightmeter.reports.results import Results
 from lightmeter.reports.thumbnails import data_uri, thumbnail
@@ -51,16 +48,8 @@ def write_report(
         ValueError: two pairs of one name.
         OSError: the file cannot be written.
     """
-    target = Path(folder) / "report.html"
-    target.parent.mkdir(parents=True, exist_ok=True)
-    partial = target.with_name(f".{target.name}.{os.getpid()}.part")
     page = render_report(results, pairs, display_curve=display_curve, thumbnails=thumbnails)
-    try:
-        partial.write_text(page, encoding="utf-8")
-        partial.replace(target)
-    finally:
-        partial.unlink(missing_ok=True)
-    return target
+    return write_text(Path(folder) / "report.html", page)
 
 
 def render_report(
@@ -71,8 +60,6 @@ def render_report(
     thumbnails: Mapping[str, npt.NDArray[np.uint8]] | None = None,
 ) -> str:
     """The page's text; see `write_report`."""
-    import jinja2
-
     names = [pair.name for pair in pairs]
     if len(set(names)) != len(names):
         raise ValueError(f"report: expected pairs of different names, found {', '.join(names)}")
@@ -82,36 +69,19 @@ def render_report(
         "curve": _curve_model(display_curve),
         "maps": _map_model(pairs),
     }
-    environment = jinja2.Environment(
-        loader=jinja2.FunctionLoader(_asset),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    script = "(() => {\n'use strict';\n" + "\n".join(_asset(name) for name in _SCRIPTS) + "})();\n"
+    script = "(() => {\n'use strict';\n" + "\n".join(asset(name) for name in _SCRIPTS) + "})();\n"
     content = page_content(results, set(names))
-    return environment.get_template("report.html").render(
+    return template("report.html").render(
         content,
         strip=engine_strip(results.candidates, pairs, display_curve),
         pairs=[_card(pair, display_curve, thumbnails or {}) for pair in pairs],
-        style=_asset("report.css") + (_asset("candidates.css") if content["candidates"] else ""),
+        style=asset("report.css") + (asset("candidates.css") if content["candidates"] else ""),
         script=script,
-        script_hash=base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
-        viewer_json=_script_safe(viewer),
+        script_hash=script_hash(script),
+        viewer_json=script_safe(viewer),
         blobs=blobs,
         version=_version(),
     )
-
-
-def _asset(name: str) -> str:
-    return resources.files("lightmeter.reports.page").joinpath(name).read_text(encoding="utf-8")
-
-
-def _script_safe(value: Any) -> str:
-    """JSON that can stand inside a script element: no character that could end it."""
-    text = json.dumps(value, ensure_ascii=True, allow_nan=False)
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 def _pair_model(pair: Pair, blobs: list[str]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from lightmeter.reports.one_step import in_one_step
 from lightmeter.scenes.image_files.image_error import ImageError
 
 
@@ -24,19 +25,15 @@ def write_channels(
 ) -> Path:
     """Write float32 channels (H, W) of one size as an OpenEXR file (ZIP, linear Rec.709), in one step.
 
-    A reader sees the old file or the whole new one. `metadata` becomes text attributes of the header.
+    `metadata` becomes text attributes of the header.
     """
     import OpenEXR
 
-    target = Path(path)
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **(metadata or {})}
     planes = {name: np.ascontiguousarray(plane, dtype=np.float32) for name, plane in channels.items()}
-    partial = target.with_name(f".{target.name}.{os.getpid()}.part.exr")
     try:
-        OpenEXR.File(header, planes).write(str(partial))
-        partial.replace(target)
-    except (RuntimeError, OSError) as error:
+        with in_one_step(path) as partial:
+            OpenEXR.File(header, planes).write(str(partial))
+    except RuntimeError as error:
         raise ImageError("cannot be written", where=path, actual=str(error)) from None
-    finally:
-        partial.unlink(missing_ok=True)
-    return target
+    return Path(path)

@@ -11,6 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from pathlib import Path
 
+from lightmeter.reports.one_step import write_text
 from lightmeter.reports.significant import show_measurement
 from lightmeter.reports.verdict import Verdict
 
@@ -46,11 +47,7 @@ def write_junit(
     strict: bool = False,
 ) -> Path:
     """Write `to_junit(…)` to `path` as UTF-8, in one step."""
-    target = Path(path)
-    partial = target.with_name(f".{target.name}.{os.getpid()}.part")
-    partial.write_text(to_junit(verdicts, suite, strict=strict), encoding="utf-8")
-    partial.replace(target)
-    return target
+    return write_text(path, to_junit(verdicts, suite, strict=strict))
 
 
 def _add_case(group: ET.Element, verdict: Verdict, suite: str, strict: bool) -> None:

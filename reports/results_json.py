@@ -20,6 +20,7 @@ from typing import Any, TypeVar
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.shadow_error import ShadowPart
+from lightmeter.reports.one_step import write_text
 from lightmeter.reports.results import (
     SCHEMA,
     AmbientError,
@@ -63,12 +64,8 @@ def to_json(results: Any) -> str:
 
 
 def write_json(path: str | os.PathLike[str], results: Any) -> Path:
-    """Write `to_json(results)` in one step: a reader sees the old file or the whole new one."""
-    target = Path(path)
-    partial = target.with_name(f".{target.name}.{os.getpid()}.part")
-    partial.write_text(to_json(results), encoding="utf-8")
-    partial.replace(target)
-    return target
+    """Write `to_json(results)` in one step."""
+    return write_text(path, to_json(results))
 
 
 def from_json(text: str) -> Results:

@@ -1,18 +1,12 @@
-"""A stress run as one HTML file that opens from disk without network, with its numbers beside it as JSON.
+"""A stress run as one HTML file that opens from disk without network, with its numbers beside it as JSON."""
 
-As with the other pages, a content security policy forbids every request, and every script but the page's own.
-"""
-
-import base64
-import hashlib
-import json
-import os
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from lightmeter.realtime.stress.findings import FORMATS, Cell, Stressed
 from lightmeter.realtime.stress.regimes import REGIMES
+from lightmeter.reports.one_step import write_text
+from lightmeter.reports.page_file import asset, device_rows, script_hash, script_safe, template
 from lightmeter.reports.results_json import to_json
 from lightmeter.reports.stress_results import StressResults, command, inherent, shown
 from lightmeter.reports.stress_table import safe_domain
@@ -20,31 +14,22 @@ from lightmeter.reports.stress_table import safe_domain
 
 def write_stress(folder: Path, results: StressResults) -> Path:
     """Write `stress.html` and `stress.json` into `folder`, each in one step; gives the page's path."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in {"stress.json": to_json(results), "stress.html": render_stress(results)}.items():
-        partial = folder / f".{name}.{os.getpid()}.part"
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(folder / name)
-    return folder / "stress.html"
+    write_text(folder / "stress.json", to_json(results))
+    return write_text(folder / "stress.html", render_stress(results))
 
 
 def render_stress(results: StressResults) -> str:
     """The page's text."""
-    import jinja2
-
-    environment = jinja2.Environment(
-        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    script = _asset("stress.js")
-    return environment.from_string(_asset("stress.html")).render(
+    script = asset("stress.js")
+    return template("stress.html").render(
         formats=FORMATS,
-        style=_asset("report.css") + _asset("stress.css"),
+        style=asset("report.css") + asset("stress.css"),
         script=script,
-        hash=base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
-        device=[(key.replace("_", " "), "—" if value is None else value) for key, value in results.device.items()],
+        hash=script_hash(script),
+        device=device_rows(results.device),
         count=len(results.functions),
         seed=results.seed,
-        data=_script_safe(_model(results)),
+        data=script_safe(_model(results)),
     )
 
 
@@ -83,13 +68,3 @@ def _cell(name: str, cell: Cell) -> dict[str, Any]:
 
 def _numbers(values: list[float]) -> str:
     return ", ".join(f"{v:.9g}" for v in values)
-
-
-def _asset(name: str) -> str:
-    return resources.files("lightmeter.reports.page").joinpath(name).read_text(encoding="utf-8")
-
-
-def _script_safe(value: Any) -> str:
-    """JSON that can stand inside a script element: no character that could end it."""
-    text = json.dumps(value, ensure_ascii=True, allow_nan=False)
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

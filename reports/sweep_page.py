@@ -1,18 +1,15 @@
 """A sweep as one HTML file that opens from disk without network, with its numbers beside it as JSON and CSV.
 
-plotly.js is inside the file. As with the report, a content security policy forbids every request, and every script
-but the page's own (by hash).
+plotly.js is inside the file.
 """
 
-import base64
-import hashlib
-import json
 import os
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from lightmeter.reports.metric_words import definition, label
+from lightmeter.reports.one_step import write_text
+from lightmeter.reports.page_file import asset, device_rows, script_hash, script_safe, template
 from lightmeter.reports.results_json import to_json
 from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
@@ -24,26 +21,18 @@ from lightmeter.reports.truth_words import truth_words
 def write_sweep(folder: str | os.PathLike[str], sweep: Sweep) -> Path:
     """Write `sweep.html`, `sweep.json` and `sweep.csv` into `folder`, each in one step; gives the page's path."""
     target = Path(folder)
-    target.mkdir(parents=True, exist_ok=True)
-    texts = {"sweep.json": to_json(sweep), "sweep.csv": to_csv(sweep), "sweep.html": render_sweep(sweep)}
-    for name, text in texts.items():
-        partial = target / f".{name}.{os.getpid()}.part"
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(target / name)
-    return target / "sweep.html"
+    write_text(target / "sweep.json", to_json(sweep))
+    write_text(target / "sweep.csv", to_csv(sweep))
+    return write_text(target / "sweep.html", render_sweep(sweep))
 
 
 def render_sweep(sweep: Sweep) -> str:
     """The page's text."""
-    import jinja2
     from plotly.offline import get_plotlyjs
 
-    environment = jinja2.Environment(
-        autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    scripts = [get_plotlyjs(), _asset("sweep.js")]
+    scripts = [get_plotlyjs(), asset("sweep.js")]
     plots = [figures(swept, sweep.path_tracer, METRICS, sweep.others) for swept in sweep.effects]
-    return environment.from_string(_asset("sweep.html")).render(
+    return template("sweep.html").render(
         scene=sweep.scene,
         subtitle=_subtitle(sweep),
         complete=sweep.complete,
@@ -51,11 +40,11 @@ def render_sweep(sweep: Sweep) -> str:
         metrics=[{"name": name, "label": label(name), "definition": definition(name)} for name in METRICS],
         effects=[_section(swept) for swept in sweep.effects],
         notes=sweep.notes,
-        device=[(key.replace("_", " "), "—" if value is None else value) for key, value in sweep.device.items()],
-        style=_asset("report.css") + _asset("sweep.css"),
+        device=device_rows(sweep.device),
+        style=asset("report.css") + asset("sweep.css"),
         scripts=scripts,
-        hashes=[base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts],
-        plots=_script_safe(plots),
+        hashes=[script_hash(script) for script in scripts],
+        plots=script_safe(plots),
     )
 
 
@@ -95,13 +84,3 @@ def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:
         "front": standing.front.get(metric, False),
         "crossing": crossing(standing, metric),
     }
-
-
-def _asset(name: str) -> str:
-    return resources.files("lightmeter.reports.page").joinpath(name).read_text(encoding="utf-8")
-
-
-def _script_safe(value: Any) -> str:
-    """JSON that can stand inside a script element: no character that could end it."""
-    text = json.dumps(value, ensure_ascii=True, allow_nan=False)
-    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

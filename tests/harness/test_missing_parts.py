@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from lightmeter import report_folder
-
 from .small_images import exr, noise
 
 LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="EGL and these variables are Linux's")
@@ -84,8 +82,9 @@ def test_a_full_disk_under_a_report_is_named(refused, tmp_path, monkeypatch):
     exr(tmp_path / "a.exr", noise())
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    def fail(*_words):
+    def fail(*_words, **_options):
         raise full
 
-    monkeypatch.setattr(report_folder, "write_json", fail)
-    assert refused("diff", "a.exr", "a.exr", "-o", "out") == "out: No space left on device"
+    monkeypatch.setattr(Path, "write_text", fail)
+    said = refused("diff", "a.exr", "a.exr", "-o", "out")
+    assert said == "out/results.json: cannot be written (No space left on device)"
