@@ -2,8 +2,11 @@
 
 from pathlib import Path
 
-from .chromium_pipe import Page
+import pytest
 
+from .chromium_pipe import Page, find_chromium
+
+needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
 SHOWN = "document.querySelector('#viewer').dataset.shown === '{}'"
 
 

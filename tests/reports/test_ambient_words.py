@@ -12,10 +12,9 @@ from lightmeter.reports.html import write_report
 from lightmeter.reports.results import AmbientError
 from lightmeter.reports.results_json import ResultsError, from_json, to_json
 
-from .report_page import open_report
+from .report_page import needs_chromium, open_report
 from .synthetic_pairs import make_pairs, make_results
 from .test_attribution_words import printed
-from .test_report_html import needs_chromium, page  # noqa: F401 (a fixture)
 
 METRICS = {"rmse": Measurement(0.25, 0.24, 0.26), "relative_bias": Measurement(0.4, 0.38, 0.42)}
 ERRORS = (
@@ -50,7 +49,7 @@ def test_in_words():
 
 
 @needs_chromium
-def test_the_section_is_there_where_there_is_ambient_visibility(page, tmp_path: Path):  # noqa: F811
+def test_the_section_is_there_where_there_is_ambient_visibility(page, tmp_path: Path):
     open_report(page, write_report(tmp_path, dataclasses.replace(make_results(32), ambient=ERRORS), make_pairs(32)))
     section = "document.querySelector('[aria-labelledby=ambient-title]')"
     assert page.evaluate(f"{section}.querySelectorAll('tbody tr').length") == 3

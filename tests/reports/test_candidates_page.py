@@ -2,7 +2,6 @@
 
 import dataclasses
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,28 +10,9 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.html import render_report, write_report
 from lightmeter.reports.results import Attribution, FailedCandidate, Finding, LayerError, Player, Results
 
-from .chromium_pipe import Page, find_chromium, open_chromium
-from .report_page import SHOWN, click, open_report
+from .chromium_pipe import Page
+from .report_page import SHOWN, click, needs_chromium, open_report
 from .synthetic_pairs import make_candidate_pairs, make_candidates, make_failed, make_results
-
-needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
-
-
-@pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    with open_chromium(tmp_path_factory.mktemp("profile")) as page:
-        yield page
-
-
-@pytest.fixture(autouse=True)
-def no_problems(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Whatever a test does, the console stays empty and nothing is fetched."""
-    yield
-    if "page" in request.fixturenames:
-        page = request.getfixturevalue("page")
-        problems, page.problems = page.problems, []
-        assert problems == []
-        assert [url for url in page.requests if not url.startswith(("file:", "data:", "about:"))] == []
 
 
 def side_by_side() -> Results:

@@ -9,10 +9,9 @@ from lightmeter.reports.html import write_report
 from lightmeter.reports.shadow_content import MISTAKES, shadow_content, shadow_line
 
 from .chromium_pipe import Page
-from .report_page import open_report
+from .report_page import needs_chromium, open_report
 from .synthetic_pairs import make_pairs, make_results, make_shadows
 from .test_attribution_words import printed
-from .test_report_html import needs_chromium, page  # noqa: F401 (a fixture)
 
 
 def test_every_mistake_has_words() -> None:
@@ -50,7 +49,7 @@ def test_the_page_s_table() -> None:
 
 
 @needs_chromium
-def test_the_section_is_there_where_there_are_shadows(page: Page, tmp_path: Path) -> None:  # noqa: F811
+def test_the_section_is_there_where_there_are_shadows(page: Page, tmp_path: Path) -> None:
     evil = "<b>sun</b>"
     shadows = (dataclasses.replace(make_shadows()[0], light=evil), make_shadows()[1])
     open_report(page, write_report(tmp_path, dataclasses.replace(make_results(32), shadows=shadows), make_pairs(32)))

@@ -1,7 +1,5 @@
 """A stress run's page in a browser: the grid, its formats, and the input that a cell opens."""
 
-from collections.abc import Iterator
-
 import pytest
 
 from lightmeter.realtime.stress.findings import Cell, Example, Stressed
@@ -9,10 +7,8 @@ from lightmeter.reports.stress_page import write_stress
 from lightmeter.reports.stress_results import StressResults, command, inherent, shown
 from lightmeter.reports.stress_table import fault_lines, safe_domain
 
-from .chromium_pipe import Page, find_chromium, open_chromium
-from .report_page import click
-
-needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
+from .chromium_pipe import Page
+from .report_page import click, needs_chromium
 
 INPUT = {"n": [0.0, 0.0, 1.0], "alpha": [1e-6]}
 LOST = Example(INPUT, [1.5], [1.0], 0.5, 0.5, 0.3, attainable=6.0)
@@ -31,13 +27,11 @@ def results() -> StressResults:
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    """A browser with the page open."""
-    target = write_stress(tmp_path_factory.mktemp("stress"), results())
-    with open_chromium(tmp_path_factory.mktemp("profile")) as page:
-        page.open(target)
-        page.until("document.querySelectorAll('#grid button').length === 3")
-        yield page
+def page(page: Page, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    """With the run open."""
+    page.open(write_stress(tmp_path_factory.mktemp("stress"), results()))
+    page.until("document.querySelectorAll('#grid button').length === 3")
+    return page
 
 
 @needs_chromium

@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,30 +13,17 @@ from lightmeter.reports.sweep_figures import figure, groups
 from lightmeter.reports.sweep_page import write_sweep
 from lightmeter.reports.sweep_results import best, to_csv
 
-from .chromium_pipe import Page, find_chromium, open_chromium
+from .chromium_pipe import Page
+from .report_page import needs_chromium
 from .synthetic_sweep import make_sweep
-
-needs_chromium = pytest.mark.skipif(find_chromium() is None, reason="no chromium on this machine")
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    """A browser with the page open."""
-    target = write_sweep(tmp_path_factory.mktemp("sweep"), make_sweep())
-    with open_chromium(tmp_path_factory.mktemp("profile")) as page:
-        page.open(target)
-        page.until("document.body.dataset.shown === 'effect rmse'")
-        yield page
-
-
-@pytest.fixture(autouse=True)
-def no_problems(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Whatever a test does, the console stays empty and nothing is fetched."""
-    yield
-    if "page" in request.fixturenames:
-        page = request.getfixturevalue("page")
-        assert page.problems == []
-        assert [url for url in page.requests if not url.startswith(("file:", "data:", "about:", "blob:"))] == []
+def page(page: Page, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    """With the sweep open."""
+    page.open(write_sweep(tmp_path_factory.mktemp("sweep"), make_sweep()))
+    page.until("document.body.dataset.shown === 'effect rmse'")
+    return page
 
 
 def choose(page: Page, view: str, metric: str) -> None:
