@@ -5,7 +5,6 @@
 Writes the tables of docs/ambient-occlusion.md and its picture.
 """
 
-import argparse
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from judged import machine, parser, publish
 from PIL import Image
 from rich.console import Console
 
-from lightmeter.device import fingerprint
 from lightmeter.groundtruth.store import Store
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.registry import measure_all
@@ -190,22 +189,14 @@ def picture(judges: dict[str, Judge]) -> Image.Image:
 
 def main() -> None:
     """Measure, print, write."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--size", type=int, default=128, metavar="N", help="of the judged images (%(default)s)")
-    parser.add_argument("--spp", type=int, default=256, metavar="N", help="samples of the truth (%(default)s)")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the tables here")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="write the picture here")
-    options = parser.parse_args()
+    asked = parser(__doc__, size=128)
+    asked.add_argument("--picture", type=Path, metavar="FILE", help="write the picture here")
+    options = asked.parse_args()
     console, device = Console(stderr=True), Device()
     judges = {scene: Judge(device, scene, options.size, options.spp) for scene in SCENES}
     if options.picture:
         picture(judges).save(options.picture, quality=88)
-    text = ""
-    for table in tables(judges, device, console):
-        print(table, flush=True)
-        text += table + "\n"
-        if options.output:
-            options.output.write_text(text, encoding="utf-8")
+    publish(tables(judges, device, console), options.output)
 
 
 def tables(judges: dict[str, Judge], device: Device, console: Console) -> Iterable[str]:
@@ -213,8 +204,7 @@ def tables(judges: dict[str, Judge], device: Device, console: Console) -> Iterab
     yield from techniques_table(judges, device, console)
     yield specular_table(judges)
     yield from sweeps_table(judges, console)
-    machine: dict[str, Any] = fingerprint(device.renderer, device.version)
-    yield ", ".join(f"{name} {value}" for name, value in machine.items() if value is not None)
+    yield machine(device)
 
 
 if __name__ == "__main__":

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from judged import machine
 from PIL import Image
 
-from lightmeter.device import fingerprint
 from lightmeter.groundtruth.oracles import direct
 from lightmeter.groundtruth.world import World
 from lightmeter.realtime.device import Device
@@ -186,8 +186,7 @@ def main() -> None:
         print(f"\n{name}\n")
         for line in tables[name]():
             print(line, flush=True)
-    machine = fingerprint(device.renderer, device.version)
-    print("\n" + ", ".join(f"{name} {value}" for name, value in machine.items() if value is not None))
+    print("\n" + machine(device))
 
 
 if __name__ == "__main__":

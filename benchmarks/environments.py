@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from judged import machine
 from PIL import Image
 
-from lightmeter.device import fingerprint
 from lightmeter.groundtruth.oracles import environment
 from lightmeter.groundtruth.world import World
 from lightmeter.realtime.device import Device
@@ -199,8 +199,7 @@ def main() -> None:
             print(line, flush=True)
     if options.picture:
         draw(device, maps, options.spp, options.picture)
-    machine = fingerprint(device.renderer, device.version)
-    print("\n" + ", ".join(f"{name} {value}" for name, value in machine.items() if value is not None))
+    print("\n" + machine(device))
 
 
 if __name__ == "__main__":

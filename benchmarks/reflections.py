@@ -5,16 +5,14 @@
 Writes the tables of docs/reflections.md.
 """
 
-import argparse
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from judged import machine, parser, publish
 from rich.console import Console
 
-from lightmeter.device import fingerprint
 from lightmeter.groundtruth.store import Store
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.mse import rmse
@@ -160,24 +158,14 @@ def tables(device: Device, size: int, spp: int, console: Console) -> Iterable[st
         yield fates_table(scene, rows)
         if scene == "mirrors":
             yield steps_table(device, truth)
-    machine = fingerprint(device.renderer, device.version)
-    yield ", ".join(f"{name} {value}" for name, value in machine.items() if value is not None)
+    yield machine(device)
 
 
 def main() -> None:
     """Measure, print, write."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--size", type=int, default=128, metavar="N", help="of the judged images (%(default)s)")
-    parser.add_argument("--spp", type=int, default=256, metavar="N", help="samples of the truth (%(default)s)")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the tables here")
-    options = parser.parse_args()
+    options = parser(__doc__, size=128).parse_args()
     console, device = Console(stderr=True), Device()
-    text = ""
-    for table in tables(device, options.size, options.spp, console):
-        print(table, flush=True)
-        text += table + "\n"
-        if options.output:
-            options.output.write_text(text, encoding="utf-8")
+    publish(tables(device, options.size, options.spp, console), options.output)
 
 
 if __name__ == "__main__":

@@ -5,17 +5,15 @@
 Writes the tables of docs/shadows.md. `run.py --only shadows` takes the times alone.
 """
 
-import argparse
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from figures import Figure
+from judged import machine, parser, publish
 from rich.console import Console
 
-from lightmeter.device import fingerprint
 from lightmeter.groundtruth.store import Store
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.mse import rmse
@@ -174,18 +172,9 @@ def resolutions_table(device: Device, console: Console) -> str:
 
 def main() -> None:
     """Measure, print, write."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--size", type=int, default=256, metavar="N", help="of the judged images (%(default)s)")
-    parser.add_argument("--spp", type=int, default=256, metavar="N", help="samples of the truth (%(default)s)")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the tables here")
-    options = parser.parse_args()
+    options = parser(__doc__, size=256).parse_args()
     console, device = Console(stderr=True), Device()
-    text = ""
-    for table in tables(device, options.size, options.spp, console):
-        print(table, flush=True)
-        text += table + "\n"
-        if options.output:
-            options.output.write_text(text, encoding="utf-8")
+    publish(tables(device, options.size, options.spp, console), options.output)
 
 
 def tables(device: Device, size: int, spp: int, console: Console) -> Iterable[str]:
@@ -198,8 +187,7 @@ def tables(device: Device, size: int, spp: int, console: Console) -> Iterable[st
     console.print("times", style="dim")
     yield errors_table(rows, {technique.name: fastest(device, technique.timed, technique) for technique in TECHNIQUES})
     yield resolutions_table(device, console)
-    machine = fingerprint(device.renderer, device.version)
-    yield ", ".join(f"{name} {value}" for name, value in machine.items() if value is not None)
+    yield machine(device)
 
 
 if __name__ == "__main__":
