@@ -1,18 +1,8 @@
 // Light gathered over the screen, averaged over like pixels, on the diffuse base.
-#include "interleaved.glsl"
+#include "tile_mean.glsl"
 #include "brdf.glsl"
 uniform sampler2D gathered;
 
 vec3 indirect(Surface surface) {
-    vec3 sum = vec3(0.0);
-    float count = 0.0;
-    for (int i = 0; i < TILE * TILE; ++i) {
-        ivec2 place = ivec2(gl_FragCoord.xy) + ivec2(i % TILE, i / TILE) - TILE / 2;
-        Surface other;
-        if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, textureSize(gathered, 0)))) continue;
-        if (!load_surface(place, other) || !alike(surface.normal, other.normal, other.position - surface.position)) continue;
-        sum += texelFetch(gathered, place, 0).rgb;
-        count += 1.0;
-    }
-    return sum / max(count, 1.0) * diffuse_color(surface.base_color, surface.metallic);
+    return tile_mean(gathered, surface) * diffuse_color(surface.base_color, surface.metallic);
 }
