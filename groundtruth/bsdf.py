@@ -10,25 +10,12 @@ rule for the shading normal; else surfaces with interpolated normals leak light 
 from collections.abc import Set as AbstractSet
 
 from lightmeter.groundtruth import surface
-from lightmeter.groundtruth.tables import Tables
+from lightmeter.groundtruth.tables import SLOTS, Tables
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Shape
 from lightmeter.scenes.optics import material as optics
 
-SCATTERING_SLOTS = frozenset(
-    {
-        "base_color",
-        "metallic_roughness",
-        "normal",
-        "color",
-        "clearcoat",
-        "clearcoat_roughness",
-        "clearcoat_normal",
-        "anisotropy",
-        "sheen_color",
-        "sheen_roughness",
-    }
-)
+SCATTERING_SLOTS = frozenset(SLOTS) - {"occlusion", "emissive"} | {"color"}
 MASK = "mask"
 
 
