@@ -9,6 +9,7 @@ from lightmeter.groundtruth.world import World
 from lightmeter.scenes.model import Material, Scene, Shape
 from lightmeter.scenes.optics import material as optics
 
+from .. import white_metal
 from .noise import assert_mean, sidak
 from .small_scenes import floor, looking
 
@@ -138,17 +139,7 @@ def test_it_is_reciprocal():
         np.testing.assert_allclose(there, back, rtol=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("alpha", "mu", "albedo"),
-    [
-        (1.0, 1.0, 1 - np.log(2)),
-        (0.25, 1.0, 0.9158),
-        (0.09, 1.0, 0.9907),
-        (1.0, 0.5, 0.4507),
-        (0.25, 0.5, 0.8573),
-        (0.09, 0.5, 0.9751),
-    ],
-)
+@pytest.mark.parametrize(("alpha", "mu", "albedo"), white_metal.ALBEDOS)
 def test_the_white_metals_albedo_is_the_published_one(alpha, mu, albedo):
     """Single scattering GGX, F = 1, height-correlated Smith (design, section 8); four digits are published."""
     world = world_of(Material(metallic=1, roughness=float(np.sqrt(alpha))))

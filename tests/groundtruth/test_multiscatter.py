@@ -21,6 +21,7 @@ from lightmeter.scenes.optics import material as optics
 from lightmeter.scenes.optics import microfacet
 from lightmeter.scenes.optics.microsurface import walk
 
+from .. import white_metal
 from .noise import assert_mean, assert_same_mean, sidak
 from .small_scenes import floor, looking, placed
 
@@ -128,7 +129,7 @@ def test_a_white_metal_returns_all_light(alpha):
     assert_mean(np.array(integrals), 1, half_width=0.04)
 
 
-@pytest.mark.parametrize(("alpha", "loss"), [(1.0, 0.591), (0.5, 0.300), (0.25, 0.118)])
+@pytest.mark.parametrize(("alpha", "loss"), white_metal.LOSSES)
 def test_further_bounces_bring_what_single_scattering_loses(alpha, loss):
     """The mean energy losses of the design, section 8, to its three digits."""
     point, found = material(math.sqrt(alpha), base=(1, 1, 1)), []

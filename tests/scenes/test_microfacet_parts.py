@@ -6,6 +6,8 @@ import pytest
 from lightmeter.scenes.optics import conductors, fresnel, microfacet
 from lightmeter.scenes.optics.albedo import directional_albedo, mean_albedo
 
+from .. import white_metal
+
 ANGLES = np.radians(np.linspace(0, 90, 9001))
 MASKINGS = (
     microfacet.v_smith_ggx_correlated,
@@ -107,23 +109,13 @@ def test_white_conductor_albedo_with_separable_and_correlated_heights(masking, e
     assert directional_albedo(microfacet.d_ggx, masking, 1.0, cosine) == pytest.approx(expected, abs=5.5e-4)
 
 
-@pytest.mark.parametrize(
-    ("alpha", "cosine", "expected"),
-    [
-        (1.0, 1.0, 1 - np.log(2)),
-        (0.25, 1.0, 0.9158),
-        (0.09, 1.0, 0.9907),
-        (1.0, 0.5, 0.4507),
-        (0.25, 0.5, 0.8573),
-        (0.09, 0.5, 0.9751),
-    ],
-)
+@pytest.mark.parametrize(("alpha", "cosine", "expected"), white_metal.ALBEDOS)
 def test_the_quadrature_of_an_albedo(alpha, cosine, expected):
     found = directional_albedo(microfacet.d_ggx, microfacet.v_smith_ggx_correlated, alpha, cosine)
     assert found == pytest.approx(expected, abs=6e-5)
 
 
-@pytest.mark.parametrize(("alpha", "loss"), [(1.0, 0.591), (0.5, 0.300), (0.25, 0.118)])
+@pytest.mark.parametrize(("alpha", "loss"), white_metal.LOSSES)
 def test_mean_energy_loss(alpha, loss):
     nodes, weights = np.polynomial.legendre.leggauss(16)
     cosine, weight = (nodes + 1) / 2, weights / 2

@@ -10,6 +10,8 @@ from lightmeter.scenes.optics import microfacet
 from lightmeter.scenes.optics.albedo import directional_albedo
 from lightmeter.scenes.optics.microsurface import walk
 
+from .. import white_metal
+
 COUNT = 40_000
 SURE = 4.5 / (2 * np.sqrt(COUNT))
 
@@ -43,7 +45,7 @@ def test_a_white_furnace_is_returned_whole_and_the_first_bounce_is_the_lobe(alph
     assert found.albedo(1, 1) == pytest.approx([lobe], abs=SURE)
 
 
-@pytest.mark.parametrize(("alpha", "loss"), [(1.0, 0.591), (0.5, 0.300), (0.25, 0.118)])
+@pytest.mark.parametrize(("alpha", "loss"), white_metal.LOSSES)
 def test_what_single_scattering_loses_comes_back_later(alpha, loss):
     rng = np.random.default_rng(7)
     found = walk(from_everywhere(rng), alpha, mirror, rng)

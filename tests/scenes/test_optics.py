@@ -6,6 +6,8 @@ import pytest
 from lightmeter.scenes.optics import frames, lights, material, microfacet
 from lightmeter.scenes.optics.material import MaterialPoint
 
+from .. import white_metal
+
 UP = np.array([[0.0], [0.0], [1.0]])
 
 
@@ -48,22 +50,12 @@ def albedo(point: MaterialPoint, cosine: float, n: int = 1000) -> float:
     return float(np.mean(np.where(density > 0, value / np.maximum(density, 1e-300), 0)))
 
 
-@pytest.mark.parametrize(
-    ("alpha", "cosine", "expected"),
-    [
-        (1.0, 1.0, 1 - np.log(2)),
-        (0.25, 1.0, 0.9158),
-        (0.09, 1.0, 0.9907),
-        (1.0, 0.5, 0.4507),
-        (0.25, 0.5, 0.8573),
-        (0.09, 0.5, 0.9751),
-    ],
-)
+@pytest.mark.parametrize(("alpha", "cosine", "expected"), white_metal.ALBEDOS)
 def test_single_scattering_albedo_of_a_white_conductor(alpha, cosine, expected):
     assert albedo(metal(alpha), cosine) == pytest.approx(expected, abs=2e-4)
 
 
-@pytest.mark.parametrize(("alpha", "loss"), [(1.0, 0.591), (0.5, 0.300), (0.25, 0.118)])
+@pytest.mark.parametrize(("alpha", "loss"), white_metal.LOSSES)
 def test_mean_energy_loss(alpha, loss):
     """1 − 2∫E(µ)µ dµ: what single scattering loses under light from everywhere."""
     nodes, weights = np.polynomial.legendre.leggauss(12)
