@@ -267,7 +267,12 @@ def flip(
 
 
 def flip_error(display: Callable[[np.ndarray], np.ndarray] | None, pixels_per_degree: float) -> ErrorMap:
-    """LDR-FLIP's map, as the metrics that read it share it."""
+    """LDR-FLIP's map, (H, W) in [0, 1], as the metrics that read it share it.
+
+    Args:
+        display: from (H, W, 3) to code values in [0, 1]; None where the images are such values already.
+        pixels_per_degree: pixels per degree of the viewer's visual angle.
+    """
     return ErrorMap(("flip", pixels_per_degree), lambda t, r: ldr_flip(t, r, pixels_per_degree), display, spatial=True)
 
 

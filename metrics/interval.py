@@ -22,7 +22,7 @@ def student_t(batches: int, confidence: float) -> float:
 
 
 def jackknife_variance(leave_one_out: np.ndarray) -> float:
-    """The variance of an estimate from its K values with one batch left out each."""
+    """The variance of an estimate, in its unit squared, from its values (K,) with one batch left out each."""
     k = len(leave_one_out)
     return float((k - 1) / k * np.sum((leave_one_out - leave_one_out.mean()) ** 2))
 

@@ -66,7 +66,7 @@ class ErrorMap:
 
 
 def mean(values: Image, mask: np.ndarray | None) -> float:
-    """Over the pixels that count."""
+    """Over the pixels of values (H, W) that count: those of the mask (H, W), or all."""
     return float(np.mean(values if mask is None else values[mask], dtype=np.float64))
 
 

@@ -171,7 +171,7 @@ def look(bound: Bound, alpha: float, measure: Callable[[float], Measurement], co
 
 
 def effective_count(contributions: np.ndarray) -> float:
-    """(Σc²)² / Σc⁴ of centred contributions: n for n alike ones, a third of their number for normal ones.
+    """(Σc²)² / Σc⁴ of centred contributions of any shape: n for n alike ones, a third of their number for normal ones.
 
     Infinite where nothing spreads.
     """

@@ -75,6 +75,9 @@ def sampled_orders(players: int, pairs: int, seed: int = 0) -> Orders:
 
     Args:
         pairs: how many independent pairs of an order and its reverse, at least 2: their spread is the sampling error.
+
+    Raises:
+        ValueError: there are fewer pairs.
     """
     if pairs < 2:
         raise ValueError(f"expected at least 2 pairs of orders, got {pairs}")

@@ -133,7 +133,12 @@ def search(edges: Edges, start: np.ndarray, free: np.ndarray, still: float = STI
 
 
 def assess(edges: Edges, placement: np.ndarray, free: np.ndarray) -> Fit:
-    """How sure the free parameters of a placement are."""
+    """How sure the free parameters of a placement are, by a jackknife over parts of the image.
+
+    Args:
+        placement: (4,) as `search` gives it.
+        free: (4, p) directions in which it could move.
+    """
     slopes, left = edges.slopes(placement, free)
     matrices = np.einsum("pjn,qjn->npq", slopes, slopes)
     vectors = np.einsum("pjn,jn->np", slopes, left)
@@ -173,7 +178,10 @@ def _plausible(placement: np.ndarray, shape: tuple[int, int]) -> bool:
 def pyramid(
     tested: np.ndarray, reference: np.ndarray, variance: np.ndarray | None, valid: np.ndarray
 ) -> list[tuple[int, Edges]]:
-    """The edges at halved resolutions, the coarsest first, each with what a pixel of it measures."""
+    """The edges at halved resolutions, the coarsest first, each with how many of the images' pixels one of its is wide.
+
+    Arguments as of `Edges`.
+    """
     found, factor = [], 1
     there = valid.astype(float)
     while True:

@@ -9,13 +9,13 @@ import numpy as np
 
 
 def srgb_encode(light: np.ndarray) -> np.ndarray:
-    """IEC 61966-2-1's curve, carried on above 1; values below 0 are 0."""
+    """Linear light of any shape to code values by IEC 61966-2-1's curve, carried on above 1; values below 0 are 0."""
     light = np.maximum(light, 0.0)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
 
 
 def srgb_decode(code: np.ndarray) -> np.ndarray:
-    """The inverse of `srgb_encode`."""
+    """Code values of any shape to linear light: the inverse of `srgb_encode`."""
     code = np.maximum(code, 0.0)
     return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
 

@@ -12,7 +12,11 @@ MAX_PIXELS = 2**26  # 8192 × 8192, 768 MiB as float32 RGB: beyond what a frame 
 
 
 def check_size(where: str | os.PathLike[str], width: int, height: int, max_pixels: int = MAX_PIXELS) -> None:
-    """Refuse a picture without pixels or with more than `max_pixels`."""
+    """Refuse a picture without pixels or with more than `max_pixels`.
+
+    Raises:
+        ImageError: it is one.
+    """
     if width < 1 or height < 1:
         raise ImageError("impossible size", where=where, expected="at least 1×1 pixels", actual=f"{width}×{height}")
     if width * height > max_pixels:
@@ -26,7 +30,11 @@ def check_size(where: str | os.PathLike[str], width: int, height: int, max_pixel
 
 
 def check_content(where: str | os.PathLike[str], claimed: int, present: int, ratio: float) -> None:
-    """Refuse a file whose `present` bytes cannot unpack to the `claimed` ones at `ratio` to one."""
+    """Refuse a file whose `present` bytes cannot unpack to the `claimed` ones at `ratio` to one.
+
+    Raises:
+        ImageError: it is one.
+    """
     if claimed > present * ratio:
         raise ImageError(
             "damaged, cut short or not what it claims",

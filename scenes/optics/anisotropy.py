@@ -21,12 +21,17 @@ class Grain:
 
 
 def alphas(grain: Grain, alpha: Array) -> tuple[Array, Array]:
-    """GGX's α along the grain and across it."""
+    """GGX's α along the grain and across it, (N,) each: α…1 and α."""
     return xp.mix(alpha, 1.0, grain.strength * grain.strength), alpha
 
 
 def d_ggx(t_dot_h: Array, b_dot_h: Array, n_dot_h: Array, along: Array, across: Array) -> Array:
-    """The distribution of normals, 1/sr, of a half vector's components; 0 below the horizon."""
+    """The distribution of normals, 1/sr, of a half vector's components; 0 below the horizon.
+
+    Args:
+        t_dot_h, b_dot_h, n_dot_h: (N,) its components along the grain, across it and along the normal.
+        along, across: (N,) α along the grain and across it, above 0.
+    """
     x, y = t_dot_h / along, b_dot_h / across
     # The sum is at least |h|² = 1; h is 0 where light comes from straight behind v.
     spread = xp.maximum(x * x + y * y + n_dot_h * n_dot_h, 1e-12)
@@ -41,7 +46,7 @@ def stretched(t_dot: Array, b_dot: Array, n_dot: Array, along: Array, across: Ar
 
 
 def lobe(grain: Grain, alpha: Array, n: Array, v: Array, l: Array) -> Array:  # noqa: E741 (l: light, as in the field)
-    """D·V, 1/sr."""
+    """D·V, (N,) in 1/sr, of unit directions (3, N); `alpha` (N,), across the grain."""
     t, b = grain.direction, xp.cross(n, grain.direction)
     along, across = alphas(grain, alpha)
     h = xp.normalize(v + l)

@@ -89,7 +89,12 @@ def fujii(rho: Array, roughness: Array, n: Array, v: Array, l: Array) -> Array: 
 
 
 def fujii_albedo(cosine: Array, roughness: Array) -> Array:
-    """What `fujii` returns of light from one direction for ρ = 1 (Portsmouth, Kutz & Hill 2024, listing 1, exact)."""
+    """What `fujii` returns of light from one direction for ρ = 1, 0…1 (Portsmouth, Kutz & Hill 2024, listing 1, exact).
+
+    Args:
+        cosine: of the direction to the normal, above 0.
+        roughness: 0…1.
+    """
     sine = xp.sqrt(xp.maximum(1 - cosine * cosine, 0.0))
     angle = xp.arctan2(sine, cosine)
     g = sine * (angle - sine * cosine) + 2 / 3 * (sine / cosine * (1 - sine * sine * sine) - sine)

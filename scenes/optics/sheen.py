@@ -42,7 +42,7 @@ def d_charlie(n_dot_h: Array, sin2_h: Array, alpha: Array) -> Array:
 
 
 def curve(x: Array, alpha: Array) -> Array:
-    """The fit of ln Λ up to 60°, x the cosine (eq. 3, table 1)."""
+    """The fit of ln Λ up to 60°, x the cosine, 0.5…1 there (eq. 3, table 1)."""
     t = (1 - alpha) * (1 - alpha)
     a, b = xp.mix(21.5473, 25.3245, t), xp.mix(3.82987, 3.32435, t)
     c, d, e = xp.mix(0.19823, 0.16801, t), xp.mix(-1.97760, -1.27393, t), xp.mix(-4.32054, -4.85967, t)
@@ -50,7 +50,7 @@ def curve(x: Array, alpha: Array) -> Array:
 
 
 def shadowing(cosine: Array, alpha: Array) -> Array:
-    """Λ of Smith's masking: the fit, mirrored at 60° (eq. 3)."""
+    """Λ of Smith's masking, 0 or more, of cosines 0…1: the fit, mirrored at 60° (eq. 3)."""
     steep = 2 * curve(0.5 + 0 * cosine, alpha) - curve(1 - cosine, alpha)
     return xp.exp(xp.where(cosine < 0.5, curve(cosine, alpha), steep))
 
@@ -83,7 +83,7 @@ def over(sheen: Sheen, base: Array, n: Array, v: Array, l: Array) -> Array:  # n
 
 
 def albedo(sheen: Sheen, cosine: Array) -> Array:
-    """E by the table, interpolated linearly."""
+    """E of cosines (N,), 0…1, by the table, interpolated linearly."""
     x, y = _place(xp.sqrt(xp.maximum(cosine, 0.0))), _place(sheen.roughness)
     left, top = (xp.minimum(xp.floor(place), TABLE_SIDE - 2) for place in (x, y))
     first = TABLE_SIDE * top + left
