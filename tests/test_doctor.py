@@ -8,13 +8,18 @@ from pathlib import Path
 import pytest
 
 from lightmeter import device, doctor
+from lightmeter.examination import children, install
+from lightmeter.examination.children import Probe, run_probe
+from lightmeter.examination.finding import Finding
+from lightmeter.examination.opengl import GL_PROBE, examine_gl
+from lightmeter.examination.truth import MINIMUM_LLVM, TRUTH_PROBE, examine_truth
 
 OLD_LLVMS = sorted({str(path.resolve()) for path in Path("/usr/lib").glob("*-linux-gnu/libLLVM-1[456].*so*")})
 
-WORKS_GL = doctor.Probe(
+WORKS_GL = Probe(
     {"moderngl": "5", "renderer": "llvmpipe", "version": "4.5", "code": 450, "pixel": [0.25, 0.5, 0.75, 1.0]}
 )
-WORKS_TRUTH = doctor.Probe(
+WORKS_TRUTH = Probe(
     {
         "drjit": "1.5.0",
         "mitsuba": "3.9.1",
@@ -31,30 +36,30 @@ def environment(**changes: str) -> dict[str, str]:
     return {**os.environ, **changes}
 
 
-def examine_truth_of_the_cpu(**changes: str) -> list[doctor.Finding]:
+def examine_truth_of_the_cpu(**changes: str) -> list[Finding]:
     """The truth's findings with these variables; skipped where a CUDA device makes LLVM superfluous."""
-    findings = doctor.examine_truth(environment(**changes))
+    findings = examine_truth(environment(**changes))
     if any(finding.value == "cuda_ad_rgb" for finding in findings):
         pytest.skip("the CUDA variant is used here")
     return findings
 
 
-def by_name(findings: list[doctor.Finding]) -> dict[str, doctor.Finding]:
+def by_name(findings: list[Finding]) -> dict[str, Finding]:
     return {finding.name: finding for finding in findings}
 
 
-def pretend(monkeypatch, gl: doctor.Probe = WORKS_GL, truth: doctor.Probe = WORKS_TRUTH) -> None:
+def pretend(monkeypatch, gl: Probe = WORKS_GL, truth: Probe = WORKS_TRUTH) -> None:
     """Answer for the child processes."""
-    answers = {doctor.GL_PROBE: gl, doctor.TRUTH_PROBE: truth}
-    monkeypatch.setattr(doctor, "run_probe", lambda source, environ, timeout=0.0: answers[source])
+    answers = {GL_PROBE: gl, TRUTH_PROBE: truth}
+    monkeypatch.setattr(children, "run_probe", lambda source, environ, timeout=0.0: answers[source])
 
 
 def with_apt(monkeypatch, offered: set[str]) -> None:
     """A Debian whose archive offers these packages."""
-    monkeypatch.setattr(doctor, "_manager", lambda: "apt-get")
-    monkeypatch.setattr(doctor, "_apt_offers", lambda names: offered)
-    monkeypatch.setattr(doctor.os, "geteuid", lambda: 1000)
-    monkeypatch.setattr(doctor, "LLVM_PLACES", ())
+    monkeypatch.setattr(install, "package_manager", lambda: "apt-get")
+    monkeypatch.setattr(install, "apt_offers", lambda names: offered)
+    monkeypatch.setattr(install.os, "geteuid", lambda: 1000)
+    monkeypatch.setattr("lightmeter.examination.truth.LLVM_PLACES", ())
 
 
 # --- this machine -------------------------------------------------------------------------------------------
@@ -96,7 +101,7 @@ def test_an_llvm_path_that_leads_nowhere():
     [{"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"}, {"GALLIUM_DRIVER": "nonsense", "LIBGL_DRIVERS_PATH": "/none"}],
 )
 def test_a_gl_driver_that_the_environment_hides(variables):
-    found = doctor.examine_gl(environment(**variables))
+    found = examine_gl(environment(**variables))
     if found.ok:
         pytest.skip("this machine's driver does not heed these variables")
     assert all(name in found.note for name in variables)
@@ -108,32 +113,32 @@ def test_a_gl_driver_that_the_environment_hides(variables):
 
 
 def test_what_a_child_told_before_it_died_is_kept():
-    probe = doctor.run_probe('print(\'{"llvm": "15.0.6"}\', flush=True)\nimport os; os.abort()', os.environ)
+    probe = run_probe('print(\'{"llvm": "15.0.6"}\', flush=True)\nimport os; os.abort()', os.environ)
     assert probe.facts == {"llvm": "15.0.6"}
     assert "SIGABRT" in probe.error
 
 
 def test_a_child_that_hangs_is_ended():
-    probe = doctor.run_probe("print('{\"a\": 1}', flush=True)\nimport time; time.sleep(60)", os.environ, 1.0)
+    probe = run_probe("print('{\"a\": 1}', flush=True)\nimport time; time.sleep(60)", os.environ, 1.0)
     assert probe.facts == {"a": 1}
     assert "within 1 s" in probe.error
 
 
 def test_a_library_that_lacks_is_named_whatever_the_last_line_says():
     source = "import sys; print('ImportError: libatomic.so.1: cannot open shared object file: No such file'"
-    probe = doctor.run_probe(source + ", file=sys.stderr); nonsense", os.environ)
+    probe = run_probe(source + ", file=sys.stderr); nonsense", os.environ)
     assert probe.error.startswith("libatomic.so.1: cannot open")
 
 
 def test_lines_that_are_no_facts_are_passed_over():
-    probe = doctor.run_probe("print('libEGL warning: {'); print('{oh'); print('{\"a\": 1}')", os.environ)
-    assert probe == doctor.Probe({"a": 1}, "")
+    probe = run_probe("print('libEGL warning: {'); print('{oh'); print('{\"a\": 1}')", os.environ)
+    assert probe == Probe({"a": 1}, "")
 
 
 def test_files_of_the_working_directory_are_not_imported(tmp_path, monkeypatch):
     (tmp_path / "moderngl.py").write_text("raise SystemExit('the wrong one')")
     monkeypatch.chdir(tmp_path)
-    assert "wrong one" not in doctor.run_probe("import moderngl", os.environ).error
+    assert "wrong one" not in run_probe("import moderngl", os.environ).error
 
 
 # --- remedies -----------------------------------------------------------------------------------------------
@@ -141,8 +146,8 @@ def test_files_of_the_working_directory_are_not_imported(tmp_path, monkeypatch):
 
 def test_a_bare_debian_is_told_everything_at_once(monkeypatch):
     loader = "libatomic.so.1: cannot open shared object file: No such file or directory"
-    gl = doctor.Probe({"moderngl": "5"}, "Exception: libGL.so not loaded")
-    pretend(monkeypatch, gl, doctor.Probe({}, loader))
+    gl = Probe({"moderngl": "5"}, "Exception: libGL.so not loaded")
+    pretend(monkeypatch, gl, Probe({}, loader))
     with_apt(monkeypatch, {"libc6", "libllvm16", "libllvm19"})
     assert doctor.remedies(doctor.examine({})) == [
         "sudo apt-get install -y libegl1 libgl1 libgl1-mesa-dri libatomic1 libllvm19"
@@ -150,21 +155,21 @@ def test_a_bare_debian_is_told_everything_at_once(monkeypatch):
 
 
 def test_the_newest_llvm_that_was_tried_is_chosen(monkeypatch):
-    pretend(monkeypatch, truth=doctor.Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
+    pretend(monkeypatch, truth=Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
     with_apt(monkeypatch, {"libc6", "libllvm15", "libllvm18", "libllvm22"})
     assert by_name(doctor.examine({}))["LLVM"].packages == ("libllvm18",)
 
 
 def test_empty_package_lists_are_filled_first(monkeypatch):
-    pretend(monkeypatch, truth=doctor.Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
+    pretend(monkeypatch, truth=Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
     with_apt(monkeypatch, set())
-    monkeypatch.setattr(doctor.device, "os_release", lambda: {"ID": "ubuntu", "VERSION_ID": "24.04"})
+    monkeypatch.setattr(device, "os_release", lambda: {"ID": "ubuntu", "VERSION_ID": "24.04"})
     remedy = by_name(doctor.examine({}))["LLVM"].remedy
     assert remedy == "sudo apt-get update && sudo apt-get install -y libllvm18"
 
 
 def test_a_release_without_a_new_llvm_gets_words_and_no_command(monkeypatch):
-    pretend(monkeypatch, truth=doctor.Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
+    pretend(monkeypatch, truth=Probe({"drjit": "1", "mitsuba": "3", "cuda": False, "variant": None}))
     with_apt(monkeypatch, {"libc6", "libllvm15"})
     finding = by_name(doctor.examine({}))["LLVM"]
     assert not finding.ok
@@ -173,14 +178,14 @@ def test_a_release_without_a_new_llvm_gets_words_and_no_command(monkeypatch):
 
 def test_with_cuda_no_llvm_is_asked_for(monkeypatch):
     facts = {"drjit": "1", "mitsuba": "3", "cuda": True, "variant": "cuda_ad_rgb", "sum": 2.0}
-    pretend(monkeypatch, truth=doctor.Probe(facts))
+    pretend(monkeypatch, truth=Probe(facts))
     found = by_name(doctor.examine({}))
-    assert found["variant"] == doctor.Finding("variant", "cuda_ad_rgb")
+    assert found["variant"] == Finding("variant", "cuda_ad_rgb")
     assert found["LLVM"].ok
 
 
 def test_a_python_package_that_lacks_is_installed_at_the_version_asked_for(monkeypatch):
-    pretend(monkeypatch, truth=doctor.Probe({"drjit": "1.5.0"}, "ModuleNotFoundError: No module named 'mitsuba'"))
+    pretend(monkeypatch, truth=Probe({"drjit": "1.5.0"}, "ModuleNotFoundError: No module named 'mitsuba'"))
     assert by_name(doctor.examine({}))["Mitsuba"].remedy.endswith("-m pip install mitsuba==3.9.1")
 
 
@@ -189,7 +194,7 @@ def test_a_python_package_that_lacks_is_installed_at_the_version_asked_for(monke
     [({"code": 330}, "the shaders need OpenGL 4.1"), ({"pixel": [0, 0, 0, 0]}, "a cleared pixel")],
 )
 def test_a_driver_that_opens_and_does_not_do(monkeypatch, change, words):
-    pretend(monkeypatch, gl=doctor.Probe(WORKS_GL.facts | change))
+    pretend(monkeypatch, gl=Probe(WORKS_GL.facts | change))
     found = by_name(doctor.examine({}))["OpenGL"]
     assert not found.ok
     assert words in found.note
@@ -202,7 +207,7 @@ def test_exit_code_and_json(monkeypatch, capsys):
     pretend(monkeypatch)
     assert doctor.run(json=True) == 0
     assert json.loads(capsys.readouterr().out)["ok"] is True
-    pretend(monkeypatch, gl=doctor.Probe({"moderngl": "5"}, "Exception: no"))
+    pretend(monkeypatch, gl=Probe({"moderngl": "5"}, "Exception: no"))
     assert doctor.run(json=True) == 1
     document = json.loads(capsys.readouterr().out)
     assert document["ok"] is False
@@ -210,14 +215,14 @@ def test_exit_code_and_json(monkeypatch, capsys):
 
 
 def test_commands_are_on_lines_of_their_own(monkeypatch, capsys):
-    pretend(monkeypatch, gl=doctor.Probe({"moderngl": "5"}, "Exception: no"))
+    pretend(monkeypatch, gl=Probe({"moderngl": "5"}, "Exception: no"))
     with_apt(monkeypatch, {"libc6"})
     assert doctor.run() == 1
     assert "  sudo apt-get install -y libegl1 libgl1 libgl1-mesa-dri" in capsys.readouterr().out.splitlines()
 
 
 def test_a_terminal_gets_a_table(monkeypatch, capsys):
-    pretend(monkeypatch, gl=doctor.Probe({"moderngl": "5"}, "Exception: [brackets] are no markup"))
+    pretend(monkeypatch, gl=Probe({"moderngl": "5"}, "Exception: [brackets] are no markup"))
     with_apt(monkeypatch, {"libc6"})
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True, raising=False)
     assert doctor.run() == 1
@@ -243,7 +248,7 @@ def test_a_fingerprint_loads_no_renderer():
         "print(json.dumps({'loaded': [n for n in ('mitsuba', 'drjit', 'moderngl') if n in sys.modules],"
         "'variant': made['variant'], 'llvm': made['llvm'], 'gl_software': made['gl_software']}))"
     )
-    facts = doctor.run_probe(source, os.environ).facts
+    facts = run_probe(source, os.environ).facts
     assert facts == {"loaded": [], "variant": None, "llvm": None, "gl_software": None}
 
 
@@ -252,9 +257,9 @@ def test_a_fingerprint_names_the_variant_in_use():
         "import json, mitsuba; mitsuba.set_variant('llvm_ad_rgb'); from lightmeter import device;"
         "made = device.fingerprint(); print(json.dumps({key: made[key] for key in ('variant', 'llvm')}))"
     )
-    facts = doctor.run_probe(source, os.environ).facts
+    facts = run_probe(source, os.environ).facts
     assert facts["variant"] == "llvm_ad_rgb"
-    assert int(facts["llvm"].split(".")[0]) >= doctor.MINIMUM_LLVM
+    assert int(facts["llvm"].split(".")[0]) >= MINIMUM_LLVM
 
 
 @pytest.mark.parametrize(
