@@ -122,7 +122,6 @@ class Sweeping:
         reference = self._truth.reference
         times = [summarise(item.recordings) for listed in self._measured.values() for item in listed]
         swept = [self._swept(name, listed) for name, listed in self._measured.items() if listed]
-        doubts = [self._truth.doubt] if self._truth.doubt else []
         return found.Sweep(
             schema=found.SCHEMA,
             scene=self._truth.scene.name,
@@ -137,7 +136,7 @@ class Sweeping:
             ),
             effects=tuple(found.ranked(effect, self._curve) for effect in swept),
             path_tracer=tuple(self._curve),
-            notes=(*self._truth.scene.notes, *doubts, *self._notes(times), *self._of_others),
+            notes=(*self._truth.scene.notes, *self._notes(times), *self._of_others),
             complete=self._complete,
             others=self._others,
         )
@@ -200,7 +199,8 @@ class Sweeping:
 
     def _notes(self, times: Sequence[Times]) -> list[str]:
         first = times[0]
-        notes = [
+        notes = [self._truth.doubt] if self._truth.doubt else []
+        notes += [
             f"Times of the real-time renderer are {first.method}, the median of {first.frame.frames} frames in "
             f"{len(next(iter(self._measured.values()))[0].recordings)} rounds over all settings.",
             "An effect's own error is that of the frame if all else were exact (RMSE); FLIP is of its buffer alone.",
