@@ -166,27 +166,9 @@ def compare(
         scene=scene.name,
         size=size,
         device=fingerprint(device.renderer, device.version),
-        reference=outcome.Reference(
-            reference.spp * truth.batches,
-            truth.batches,
-            reference.seconds,
-            reference.reused == truth.batches,
-            scattering,
-        ),
+        reference=truth.facts,
         frame=outcome.Frame(frame_metrics, _timing(times.frame)),
-        effects=tuple(
-            outcome.Effect(
-                effect=name,
-                terms=plan.terms_of(name),
-                knobs=dict(plan.effects[name][1]),
-                metrics=measured[name],
-                time_ms=_timing(times.of(name)),
-                bake_ms=renderer.baking.milliseconds.get(name),
-                share=_share(shared, name),
-                bytes_per_pixel=plan.effects[name][0].bytes_per_pixel(plan.effects[name][1]),
-            )
-            for name in _order(plan)
-        ),
+        effects=tuple(_effect_result(name, renderer, measured[name], times, shared) for name in _order(plan)),
         closure=_closure_result(measured[_CLOSURE]),
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
@@ -223,6 +205,22 @@ def _order(plan: Plan) -> list[str]:
     """The effects in the order they are drawn; those without a step (coverage, material) last."""
     drawn = dict.fromkeys(step.effect for step in plan.steps)
     return [*drawn, *(name for name in plan.effects if name not in drawn)]
+
+
+def _effect_result(
+    name: str, renderer: Renderer, measured: dict[str, Measurement], times: Times, shares: Shares | None
+) -> outcome.Effect:
+    effect, knobs = renderer.plan.effects[name]
+    return outcome.Effect(
+        effect=name,
+        terms=renderer.plan.terms_of(name),
+        knobs=dict(knobs),
+        metrics=measured,
+        time_ms=_timing(times.of(name)),
+        bake_ms=renderer.baking.milliseconds.get(name),
+        share=_share(shares, name),
+        bytes_per_pixel=effect.bytes_per_pixel(knobs),
+    )
 
 
 def _share(shares: Shares | None, effect: str) -> dict[str, Measurement]:

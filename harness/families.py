@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lightmeter.exact_batch import ExactBatch
 from lightmeter.groundtruth.content import digest
 from lightmeter.groundtruth.oracles import coverage
 from lightmeter.groundtruth.store import Series
@@ -20,7 +21,7 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.sides import MOST_SAMPLES, FramePoints
 from lightmeter.stacking import mean_samples
 from lightmeter.substitution import Slot, exact_ratios, players_of, slot_image, slots
-from lightmeter.truth import FAMILIES, ExactBatch, Truth
+from lightmeter.truth import FAMILIES, Truth
 from lightmeter.variants import Variants
 
 EMISSION_SPP = 32

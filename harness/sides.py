@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lightmeter.exact_batch import ExactBatch
 from lightmeter.progress import Report
 from lightmeter.realtime.display import DISPLAY_TERMS, twin
 from lightmeter.realtime.graph import Plan, Step
@@ -13,7 +14,7 @@ from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples
 from lightmeter.substitution import exact_ratios, slot_image, slots
-from lightmeter.truth import ExactBatch, Truth
+from lightmeter.truth import Truth
 from lightmeter.variants import Seen, Variants
 
 MOST_SAMPLES = 16

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lightmeter.exact_batch import ExactBatch
 from lightmeter.realtime.graph import FACTORS, Plan
 from lightmeter.realtime.renderer import Capture
 from lightmeter.scenes.terms import TERMS
 from lightmeter.stacking import mean_samples
-from lightmeter.truth import ExactBatch
 
 Ratios = Mapping[int | str, np.ndarray]
 """Exact visibility, (n, H, W, 3), by light or "environment"."""

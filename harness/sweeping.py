@@ -119,7 +119,6 @@ class Sweeping:
 
     def results(self) -> found.Sweep:
         """What was found so far."""
-        reference = self._truth.reference
         times = [summarise(item.recordings) for listed in self._measured.values() for item in listed]
         swept = [self._swept(name, listed) for name, listed in self._measured.items() if listed]
         return found.Sweep(
@@ -127,13 +126,7 @@ class Sweeping:
             scene=self._truth.scene.name,
             size=self._truth.size,
             device=fingerprint(self._device.renderer, self._device.version),
-            reference=outcome.Reference(
-                reference.spp * self._truth.batches,
-                self._truth.batches,
-                reference.seconds,
-                reference.reused == self._truth.batches,
-                self._truth.scattering,
-            ),
+            reference=self._truth.facts,
             effects=tuple(found.ranked(effect, self._curve) for effect in swept),
             path_tracer=tuple(self._curve),
             notes=(*self._truth.scene.notes, *self._notes(times), *self._of_others),

@@ -2,13 +2,14 @@
 
 import zlib
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from lightmeter.exact_batch import ExactBatch
 from lightmeter.groundtruth.batches import Progress, Reference, reference, reference_in_time
 from lightmeter.groundtruth.content import points_key
 from lightmeter.groundtruth.recall import recall
@@ -16,50 +17,17 @@ from lightmeter.groundtruth.scattering import SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.options import Budget
 from lightmeter.progress import Report, silent
+from lightmeter.reports import results
 from lightmeter.scenes.features import missing_terms
 from lightmeter.scenes.model import AreaLight, Scene
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
-from lightmeter.stacking import mean_samples, reshape_points
+from lightmeter.stacking import reshape_points
 
 MEMORY = 1 << 30
 """Bytes of oracles' batches that are kept in memory for those who ask again."""
 Ratio = tuple[np.ndarray, np.ndarray]
 """A and B of a visibility: radiance with and without its shadow, (n, H, W, 3) each."""
-
-
-@dataclass(frozen=True, eq=False)
-class ExactBatch:
-    """One batch of every term at stacked points, each (n, H, W, 3) float32 in W/(sr·m²).
-
-    Attributes:
-        emission: the points' own.
-        direct, shadowed: per light, B without and A with its shadow.
-        environment, environment_shadowed: B and A; None where the scene has no environment.
-        indirect: None where the scene has none.
-    """
-
-    emission: np.ndarray
-    direct: dict[int, np.ndarray] = field(default_factory=dict)
-    shadowed: dict[int, np.ndarray] = field(default_factory=dict)
-    environment: np.ndarray | None = None
-    environment_shadowed: np.ndarray | None = None
-    indirect: np.ndarray | None = None
-
-    @property
-    def bytes(self) -> int:
-        """What it takes in memory."""
-        rest = (self.environment, self.environment_shadowed, self.indirect)
-        images = (self.emission, *self.direct.values(), *self.shadowed.values(), *rest)
-        return sum(image.nbytes for image in images if image is not None)
-
-    def composition(self) -> np.ndarray:
-        """(H, W, 3) float32: the image with every term exact."""
-        total = self.emission.astype(np.float64)
-        for value in (*self.shadowed.values(), self.environment_shadowed, self.indirect):
-            if value is not None:
-                total += value
-        return mean_samples(total).astype(np.float32)
 
 
 class Truth:
@@ -157,6 +125,13 @@ class Truth:
             return ""
         found = check_offset(self.scene, self.size, self.seed)
         return "" if found.holds else found.words
+
+    @property
+    def facts(self) -> results.Reference:
+        """What results say of the reference."""
+        made = self.reference
+        cached = made.reused == self.batches
+        return results.Reference(made.spp * self.batches, self.batches, made.seconds, cached, self.scattering)
 
     def to_depth(self, depth: int) -> "Truth":
         """The same for paths of at most this depth: 2 is direct light, and each bounce more is one more."""

@@ -8,10 +8,11 @@ import numpy as np
 
 from lightmeter.candidates.handed import Handed
 from lightmeter.candidates.layer_names import LAYERS
+from lightmeter.exact_batch import ExactBatch
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
-from lightmeter.truth import ExactBatch, Truth
+from lightmeter.truth import Truth
 from lightmeter.variants import Variants
 
 
