@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lightmeter.gating import Trial
 from lightmeter.measuring import clipped
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.reports.pictures import ErrorMap, flip_error
+from lightmeter.trials import Trial
 
 
 def error_maps(trials: Sequence[Trial]) -> dict[tuple[str, str], ErrorMap]:

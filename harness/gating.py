@@ -5,58 +5,24 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from lightmeter.baseline import Baseline, regression_bound
 from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.subject import CandidateSubject
 from lightmeter.cases import Case
 from lightmeter.device import device_digest
-from lightmeter.failures import UsageError
-from lightmeter.hints import nearest
 from lightmeter.limits import FRAME, MASKED, TIME_MS, Limit
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.metrics.registry import find_metric
-from lightmeter.metrics.sequential import LEAST_COUNT, Bound, Look, error_per_look, look
+from lightmeter.metrics.sequential import LEAST_COUNT, Bound, look
 from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.display import DISPLAY_TERMS
-from lightmeter.reports.verdict import Verdict
-from lightmeter.sides import Sides
+from lightmeter.reports.verdict import Status, Verdict
 from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject
+from lightmeter.trials import Trial
 from lightmeter.verdict import STATUS, bound_of, explain_verdict
 from lightmeter.verdict import judge as judge_point
 
 PRECISE = 0.25
 """A baseline is precise enough when its interval's half is no more than this part of the regression it serves."""
-
-
-@dataclass(eq=False)
-class Trial:
-    """One limit on one scene, until it is decided.
-
-    Attributes:
-        bound: None while a baseline is made: then the interval only has to be narrow.
-        alpha: what one look may spend.
-        rule: what is to be said of the bound ("" or the tolerance on another device).
-        last: what the last look found.
-        sides: the images it was on, their means alone; None for a time.
-    """
-
-    limit: Limit
-    case: Case
-    bound: Bound | None
-    alpha: float
-    rule: str = ""
-    verdict: Verdict | None = None
-    last: Look | None = None
-    looks: int = 0
-    sides: Sides | None = None
-
-    @property
-    def name(self) -> str:
-        """ "posts/shadow_map/rmse", with the region; what a baseline knows it by, too."""
-        words = self.limit.region.words
-        metric = f"{self.limit.metric} to {self.limit.to}" if self.limit.to else self.limit.metric
-        return f"{self.case.name}/{self.limit.what}/{metric}" + (f" {words}" if words else "")
 
 
 @dataclass(eq=False)
@@ -72,45 +38,6 @@ class Work:
     def open(self) -> list[Trial]:
         """What is still undecided."""
         return [trial for trial in self.trials if trial.verdict is None]
-
-
-def start_trials(
-    pairs: Sequence[tuple[Limit, Case]], confidence: float, baseline: Baseline | None = None
-) -> list[Trial]:
-    """The trials of these limits, the allowed error divided among them.
-
-    Raises:
-        UsageError: a regression has no stored value, or a region no pixel.
-    """
-    trials = []
-    for limit, case in pairs:
-        if not limit.is_time:
-            case.region(limit)  # an empty region is said before time is spent
-        trial = Trial(limit, case, None, error_per_look(confidence, len(pairs), 1))
-        if limit.regression is None:
-            trial.bound = bound_of(limit)
-        elif baseline is not None:
-            trial.bound, trial.rule = _baseline_bound(trial, baseline)
-        if limit.regression is not None:
-            trial.alpha /= 2  # the other half is the baseline's
-        trials.append(trial)
-    return trials
-
-
-def _baseline_bound(trial: Trial, baseline: Baseline) -> tuple[Bound, str]:
-    limit = trial.limit
-    stored = baseline.values.get(trial.name)
-    if stored is None:
-        known = f"; {nearest(trial.name, baseline.values)}" if baseline.values else ""
-        raise UsageError(
-            f"{limit.place}: the baseline has no value for {trial.name!r}{known}; write it with `lightmeter gate "
-            "--update`"
-        )
-    device = this_device()
-    more, rule = baseline.tolerance(stored, device_digest(device), device)
-    metric = find_metric(limit.metric)
-    assert limit.regression is not None
-    return regression_bound(stored, limit.regression + more, metric.larger_is_worse, metric.signed), rule
 
 
 def decide(
@@ -230,8 +157,7 @@ def _refuse_doubtful(work: Work) -> None:
     if not work.open or not (reason := work.subject.doubt()):
         return
     for trial in work.open:
-        message = f"{trial.limit.metric} of {trial.limit.what}: {reason}"
-        trial.verdict = replace(_bare(trial), message=message, reason=reason)
+        trial.verdict = trial.unmeasured(reason)
 
 
 def see_candidate(trial: Trial) -> None:
@@ -243,14 +169,14 @@ def see_candidate(trial: Trial) -> None:
     except CandidateError as error:
         why = f"{limit.what} of {case.name} cannot be judged: {error}"
         failed = Measurement(math.nan, how="failed")
-        trial.verdict = replace(_named(trial), status="FAIL", measurement=failed, message=why)
+        trial.verdict = replace(trial.unseen(), status="FAIL", measurement=failed, message=why)
         return
     trial.rule = "; ".join(filter(None, (trial.rule, judged.words)))
     if limit.metric == MASKED:
         found = Measurement(judged.masked_fraction, how="counted")
         status = judge_point(bound_of(limit), found)
         message = explain_verdict(limit, found, status)
-        trial.verdict = replace(_bare(trial), status=status, measurement=found, message=message)
+        trial.verdict = replace(trial.unmeasured(), status=status, measurement=found, message=message)
 
 
 def _refuse_device(trial: Trial) -> None:
@@ -261,45 +187,11 @@ def _refuse_device(trial: Trial) -> None:
     here = device_digest(this_device())
     if limit.device != here:
         reason = f"not judged: the limit was written for device {limit.device}, and this is {here}"
-        trial.verdict = replace(_bare(trial), message=f"time_ms of {limit.what}: {reason}", reason=reason)
+        trial.verdict = trial.unmeasured(reason)
 
 
-def _named(trial: Trial) -> Verdict:
-    """What can be said of a limit whose image is not there."""
-    limit, case = trial.limit, trial.case
-    return Verdict(
-        name=trial.name,
-        status="UNDECIDED",
-        measurement=None,
-        limit=limit.words,
-        scene=case.name,
-        of=limit.what,
-        metric=limit.metric,
-        high=limit.high,
-        low=limit.low,
-        regression=limit.regression,
-    )
-
-
-def _bare(trial: Trial) -> Verdict:
-    return replace(_named(trial), pixels=None if trial.limit.is_time else trial.case.pixels(trial.limit))
-
-
-def _verdict(trial: Trial, work: Work, status, measurement: Measurement) -> Verdict:
-    message = explain_verdict(trial.limit, measurement, status)
-    if trial.bound is not None and trial.limit.regression is not None:
-        message += f" (PASS up to {trial.bound.safe:.5g}, FAIL from {trial.bound.lost:.5g})"
-    if trial.rule:
-        message += f"; {trial.rule}"
-    return replace(
-        _bare(trial),
-        status=status,
-        measurement=measurement,
-        message=message,
-        samples=work.subject.samples,
-        looks=trial.looks,
-        error=trial.looks * trial.alpha / len(work.subject.looks),
-    )
+def _verdict(trial: Trial, work: Work, status: Status, measurement: Measurement) -> Verdict:
+    return trial.judged(status, measurement, work.subject.samples, len(work.subject.looks))
 
 
 def _undecided(trial: Trial, work: Work, seconds: float | None) -> Verdict:
@@ -307,7 +199,7 @@ def _undecided(trial: Trial, work: Work, seconds: float | None) -> Verdict:
     found = trial.last
     if found is None:
         reason = f"the time budget of {seconds:g} s ended before the first look; give more with --seconds"
-        return replace(_bare(trial), message=f"{trial.limit.metric} of {trial.limit.what}: {reason}", reason=reason)
+        return trial.unmeasured(reason)
     count = work.subject.count(trial.limit)
     if count < LEAST_COUNT:
         reason = (

@@ -15,7 +15,7 @@ from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import check_all
 from lightmeter.conditions import Conditions, KnobValue
 from lightmeter.failures import UsageError
-from lightmeter.gating import Trial, decide, start_trials
+from lightmeter.gating import decide
 from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
@@ -28,6 +28,7 @@ from lightmeter.planning import check_metric, check_target, make_case
 from lightmeter.reports.verdict import Verdict
 from lightmeter.scenes.model import Scene
 from lightmeter.scenes.optics.color import srgb_encode
+from lightmeter.trials import Trial, start_trials
 from lightmeter.verdict import bound_of, explain_verdict, judge
 
 Knobs = Mapping[str, Mapping[str, KnobValue]]

@@ -48,10 +48,11 @@ def run(args: argparse.Namespace) -> int:
     files = {name: _writable(getattr(args, name), name) for name in ("junit", "markdown", "json_file")}
     folder = options.output_folder(args.output) if args.output else None
     from lightmeter.baseline import read_baseline
-    from lightmeter.gating import decide, start_trials
+    from lightmeter.gating import decide
     from lightmeter.groundtruth.store import Store
     from lightmeter.limits import read_rules
     from lightmeter.planning import plan_cases
+    from lightmeter.trials import start_trials
 
     rules = read_rules(config)
     confidence = rules.confidence if args.confidence is None else args.confidence

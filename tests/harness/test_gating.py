@@ -6,11 +6,12 @@ from types import SimpleNamespace
 import pytest
 
 from lightmeter import gating
-from lightmeter.gating import Trial, Work, decide
+from lightmeter.gating import Work, decide
 from lightmeter.holding import conditions, hold, hold_images
 from lightmeter.limit_text import parse_limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.sequential import Bound
+from lightmeter.trials import Trial
 
 
 class Subject:
