@@ -30,9 +30,9 @@ FRAMES = 20
 ROUNDS = 3
 METRICS = ("rmse", "nrmse", "relative_bias", "ssim", "flip")
 LOWER_IS_BETTER = ("rmse", "nrmse", "flip")
-STEEPEST = 88.0
+STEEPEST, VTKS_OWN = 88.0, 11.0
 """VTK's shadow maps hold exp(c · depth), depth up to 1. At the largest c whose exponential float32 can hold, ln(2¹²⁸) =
-88.7, they come nearest to a true comparison of depths."""
+88.7, they come nearest to a true comparison of depths; VTK takes 11 by default."""
 CHILD = Path(__file__).with_name("vtk_frame.py")
 
 
@@ -68,12 +68,18 @@ def measure(device: Device, spp: int, picture: Path) -> Beside:
     frame, vtk = renderer.render().radiance, theirs[0]
     display = display_transform(plan)
     reference = Truth(scene, size, Budget(spp), store=Store()).reference
-    bare = compile_plan(scene, effects(), Choice(settings={"constant_ambient": {"indirect": 0.0}}))
+    others = {
+        "indirect=0": Choice(settings={"constant_ambient": {"indirect": 0.0}}),
+        "gtao": Choice(use=("gtao",)),
+    }
     images = {
         "lightmeter": frame,
-        "lightmeter, indirect=0": Renderer(device, bare, size).render().radiance,
+        **{
+            f"lightmeter, {name}": Renderer(device, compile_plan(scene, effects(), choice), size).render().radiance
+            for name, choice in others.items()
+        },
         "VTK": vtk["radiance"],
-        "VTK, its default shadows": _vtk(1, 0.0)["radiance"],
+        "VTK, its default shadows": _vtk(1, VTKS_OWN)["radiance"],
     }
     truth = reference.mean
     _side_by_side(picture, [display(image) for image in (vtk["radiance"], frame, truth)])
@@ -85,11 +91,11 @@ def measure(device: Device, spp: int, picture: Path) -> Beside:
     return Beside(figures, frame, truth, display)
 
 
-def _vtk(frames: int, constant: float) -> dict[str, np.ndarray]:
-    """What the child process rendered and timed; `constant` 0 leaves VTK's own."""
+def _vtk(frames: int, steepness: float) -> dict[str, np.ndarray]:
+    """What the child process rendered and timed."""
     with tempfile.TemporaryDirectory(prefix="lightmeter-bench-") as folder:
         out = Path(folder, "frame.npz")
-        words = [sys.executable, str(CHILD), SCENE, str(SIDE), str(frames), str(constant), str(out)]
+        words = [sys.executable, str(CHILD), SCENE, str(SIDE), str(frames), str(steepness), str(out)]
         subprocess.run(words, check=True)
         with np.load(out) as found:
             return dict(found)

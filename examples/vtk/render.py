@@ -74,11 +74,11 @@ def mend_shadow_maps(renderer: vtk.vtkRenderer) -> None:
     renderer.AddObserver(vtk.vtkCommand.ActiveCameraEvent, mend)
 
 
-def shadowed() -> vtk.vtkFramebufferPass:
-    """Shadow maps, then the surfaces, into float colour and depth."""
+def shadowed(steepness: float = STEEPEST) -> vtk.vtkFramebufferPass:
+    """Shadow maps of that c, then the surfaces, into float colour and depth."""
     baker, shadows, camera = vtk.vtkShadowMapBakerPass(), vtk.vtkShadowMapPass(), vtk.vtkCameraPass()
     baker.SetResolution(SHADOW_RESOLUTION)
-    baker.SetExponentialConstant(STEEPEST)
+    baker.SetExponentialConstant(steepness)
     shadows.SetShadowMapBakerPass(baker)
     one_by_one, passes = vtk.vtkSequencePass(), vtk.vtkRenderPassCollection()
     passes.AddItem(baker)
@@ -110,11 +110,18 @@ def metres(depth: np.ndarray, camera: dict) -> np.ndarray:
     return np.where(depth < 1, distance, 0)
 
 
-def milliseconds(window: vtk.vtkRenderWindow, lights: list[vtk.vtkLight]) -> np.ndarray:
-    """Times of finished frames (glFinish). VTK draws a shadow map again only if its light was touched: all are."""
+def pictures(target: vtk.vtkFramebufferPass) -> tuple[np.ndarray, np.ndarray]:
+    """What was drawn last: radiance (H, W, 3), and the depth buffer (H, W), 1 where there is no surface."""
+    encoded = read(target.GetColorTexture())[..., :3].astype(np.float64)
+    depth = read(target.GetDepthTexture())[..., 0].astype(np.float64)
+    return np.where(depth[..., None] < 1, encoded**GAMMA, encoded), depth  # the sky is not encoded
+
+
+def milliseconds(window: vtk.vtkRenderWindow, redrawn: list[vtk.vtkLight], frames: int = FRAMES) -> np.ndarray:
+    """Times of finished frames (glFinish). VTK draws a shadow map again only if its light was touched."""
     times = []
-    for _ in range(WARM_UP + FRAMES):
-        for one in lights:
+    for _ in range(WARM_UP + frames):
+        for one in redrawn:
             one.Modified()
         start = time.perf_counter()
         window.Render()
@@ -168,9 +175,7 @@ def main(gltf: Path, camera_json: Path, width: int, height: int, out: Path) -> N
     target = shadowed()
     window.GetRenderers().GetFirstRenderer().SetPass(target)
     times = milliseconds(window, lights)
-    encoded = read(target.GetColorTexture())[..., :3].astype(np.float64)
-    depth = read(target.GetDepthTexture())[..., 0].astype(np.float64)
-    radiance = np.where(depth[..., None] < 1, encoded**GAMMA, encoded)  # the sky is not encoded
+    radiance, depth = pictures(target)
     lacking = what_vtk_lacks(document)
     side = {
         "engine": f"VTK {vtk.vtkVersion.GetVTKVersion()}",
