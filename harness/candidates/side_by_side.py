@@ -98,9 +98,8 @@ def compare_candidates(
     metrics, time, how = ours
     found = [own_result(frame, measured.get("", metrics), time, how, mask)]
     for one in judged:
-        pixels = count(mask, one.image)
         terms = tuple(
-            outcome.LayerError(name, one.term_of(name), measured[f"{engine} {name}"], pixels)
+            outcome.LayerError(name, one.term_of(name), measured[f"{engine} {name}"], count(mask, one.image))
             for engine, name in layers
             if engine == one.name
         )
@@ -117,12 +116,23 @@ def compare_candidates(
     if other is not None:
         frames = {one.name: questions[one.name] for one in judged}
         frames[OWN] = questions.get("", Question(tuple(names), Sides([frame], reference), bounds=True))
-        references = {each.scattering: each.reference.batches for each in (truth, other)}
-        where = told_apart(references)
-        truths = against_each(frames, references, where, display, report)
-        found = [replace(one, truths=truths[one.name], follows=follows(truths[one.name])) for one in found]
-        notes = (apart_words(references, where, display),)
+        found, notes = _by_either_truth(found, frames, (truth, other), display, report)
     return SideBySide(tuple(found), tuple(_exhibits(judged, layers, reference)), notes)
+
+
+def _by_either_truth(
+    found: list[outcome.Candidate],
+    frames: dict[str, Question],
+    truths: tuple[Truth, Truth],
+    display: Display,
+    report: Report,
+) -> tuple[list[outcome.Candidate], tuple[str, ...]]:
+    """The engines with what they err by against either truth and which one they follow; and where the two differ."""
+    references = {truth.scattering: truth.reference.batches for truth in truths}
+    where = told_apart(references)
+    errors = against_each(frames, references, where, display, report)
+    judged = [replace(one, truths=errors[one.name], follows=follows(errors[one.name])) for one in found]
+    return judged, (apart_words(references, where, display),)
 
 
 def _exhibits(
