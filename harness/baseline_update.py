@@ -7,7 +7,7 @@ from lightmeter.baseline import Stored, read_baseline, versions_of
 from lightmeter.cases import Case
 from lightmeter.device import device_digest
 from lightmeter.gating import decide
-from lightmeter.limits import Limit
+from lightmeter.limit import Limit
 from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
 from lightmeter.reports.significant import show_measurement, show_number

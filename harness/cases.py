@@ -10,7 +10,7 @@ from lightmeter.candidates.gathering import gather
 from lightmeter.candidates.judging import Judged, judge
 from lightmeter.conditions import Conditions
 from lightmeter.groundtruth.store import Store
-from lightmeter.limits import Limit
+from lightmeter.limit import Limit
 from lightmeter.options import MIN_BATCHES, Budget
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.display import display_transform

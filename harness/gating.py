@@ -9,7 +9,7 @@ from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.subject import CandidateSubject
 from lightmeter.cases import Case
 from lightmeter.device import device_digest
-from lightmeter.limits import FRAME, MASKED, TIME_MS, Limit
+from lightmeter.limit import FRAME, MASKED, TIME_MS, Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.sequential import LEAST_COUNT, Bound, look
 from lightmeter.planning import this_device

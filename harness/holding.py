@@ -20,8 +20,9 @@ from lightmeter.groundtruth.scattering import SCATTERINGS, SINGLE
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
 from lightmeter.image_pair import ImagePair
+from lightmeter.limit import FRAME, Limit
 from lightmeter.limit_text import FORM, parse_limit
-from lightmeter.limits import DEFAULT_SPP, FRAME, Limit
+from lightmeter.limits import DEFAULT_SPP
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.registry import find_metric
 from lightmeter.planning import check_metric, check_target, make_case

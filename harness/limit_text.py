@@ -4,7 +4,7 @@ import re
 
 from lightmeter.conditions import Conditions
 from lightmeter.failures import UsageError
-from lightmeter.limits import FRAME, Limit
+from lightmeter.limit import FRAME, Limit
 from lightmeter.regions import EVERYWHERE, Region
 
 _FORM = re.compile(

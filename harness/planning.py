@@ -12,8 +12,8 @@ from lightmeter.device import Fingerprint, device_digest, fingerprint
 from lightmeter.failures import UsageError, user_failures
 from lightmeter.groundtruth.store import Store
 from lightmeter.hints import nearest
+from lightmeter.limit import FRAME, MASKED, TIME_RATIO, TIMES, Limit
 from lightmeter.limit_scenes import find_scenes, same_scene
-from lightmeter.limits import FRAME, MASKED, TIME_RATIO, TIMES, Limit
 from lightmeter.metrics.input_error import InputError
 from lightmeter.metrics.registry import METRICS, find_metric
 from lightmeter.realtime.device import Device

@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 
 from lightmeter.cases import Case
-from lightmeter.limits import FRAME, TIME_RATIO, Limit
+from lightmeter.limit import FRAME, TIME_RATIO, Limit
 from lightmeter.measuring import Display, Question, answer, clipped
 from lightmeter.metrics.finite import NonFinite, find_non_finite
 from lightmeter.metrics.interval import mean_interval

@@ -8,7 +8,7 @@ from lightmeter.cases import Case
 from lightmeter.device import device_digest
 from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
-from lightmeter.limits import Limit
+from lightmeter.limit import Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import find_metric
 from lightmeter.metrics.sequential import Bound, Look, error_per_look

@@ -2,7 +2,7 @@
 
 import math
 
-from lightmeter.limits import Limit
+from lightmeter.limit import Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.registry import METRICS, find_metric
 from lightmeter.metrics.sequential import Bound, Side

@@ -13,7 +13,8 @@ import pytest
 import yaml
 
 from lightmeter.cli import COMMANDS, _parse
-from lightmeter.doctor import APT_GL, APT_LLVM_DEFAULT
+from lightmeter.examination.opengl import APT_GL
+from lightmeter.examination.truth import APT_LLVM_DEFAULT
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "ci"
 

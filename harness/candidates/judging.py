@@ -13,7 +13,7 @@ from lightmeter.candidates.masking import left_out
 from lightmeter.candidates.registering import register
 from lightmeter.failures import UsageError
 from lightmeter.hints import nearest
-from lightmeter.limits import FRAME
+from lightmeter.limit import FRAME
 from lightmeter.measuring import Question
 from lightmeter.metrics.finite import find_non_finite
 from lightmeter.metrics.measurement import Measurement

@@ -7,7 +7,7 @@ import numpy as np
 from lightmeter.candidates.judging import Judged, filled
 from lightmeter.candidates.layer_buffers import Centres, contributions
 from lightmeter.cases import Case
-from lightmeter.limits import FRAME, Limit
+from lightmeter.limit import FRAME, Limit
 from lightmeter.measuring import Display
 from lightmeter.metrics.finite import NonFinite, find_non_finite
 from lightmeter.sides import Sides

@@ -91,7 +91,7 @@ def _on_candidates(rules, asked):
     known = {candidate.name: candidate for candidate in (*rules.candidates, *asked)}
     if not asked:
         return rules.limits, tuple(known.values())
-    from lightmeter.limits import FRAME
+    from lightmeter.limit import FRAME
 
     names = [candidate.name for candidate in asked]
     ours = [limit for limit in rules.limits if limit.candidate is None and limit.of == FRAME and not limit.is_time]

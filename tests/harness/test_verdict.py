@@ -5,7 +5,7 @@ import math
 import pytest
 
 from lightmeter.holding import conditions
-from lightmeter.limits import Limit
+from lightmeter.limit import Limit
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.verdict import bound_of, explain_verdict, judge
 
