@@ -37,7 +37,7 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
     around = world.scene.environment
     sky = black if around is None else environment.radiance(around, towards.T).T.reshape(height, width, 3)
     bare = SurfacePoints(
-        position=hit.p.numpy().T.reshape(height, width, 3),
+        position=world.frame.leave(hit.p.numpy().T).reshape(height, width, 3),
         normal=black,
         view=np.broadcast_to(view.numpy().T, (height * width, 3)).reshape(height, width, 3),
         base_color=black,
@@ -50,6 +50,17 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
         triangle=triangle.numpy().reshape(height, width),
     )
     return material.evaluate(world, bare)
+
+
+def seen_distance(world: World, size: tuple[int, int]) -> float:
+    """The median over what is seen at the pixels' centres of the largest coordinate, in the world's frame; 0: nothing is."""
+    pixel = dr.arange(mi.UInt32, size[0] * size[1])
+    middle = mi.Float(0.5)
+    hit = rays.first_hit(world, PrimaryRays(world.scene.camera, size).through(pixel, middle, middle), mi.Bool(True))
+    largest, seen = dr.max(dr.abs(hit.p)), hit.is_valid()
+    dr.eval(largest, seen)
+    there = largest.numpy()[seen.numpy()]
+    return float(np.median(there)) if len(there) else 0.0
 
 
 _STREAM = 0x5EE
