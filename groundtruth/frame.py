@@ -5,15 +5,15 @@ A ray starts off its surface, lest it hit the surface that it leaves, by (1 + ma
 vertices are rounded besides. The 1 is a metre, whatever the scene's size: to a scene of a millimetre 0.1 mm is much, and
 too little on a triangle of kilometres, whose points are known to ε of its corners' coordinates. So there are two needs:
 
-- near the scene's own middle the offset must be small beside the scene: u ≤ extent / 16, where u is the length that the
-  1 stands for;
+- the offset must be small beside the scene: u + max |p| at most 4 extents, where u is the length that the 1 stands for,
+  and the extent is from the point of the scene's bounding box nearest to its camera;
 - it must be larger than the error of a point on its triangle: (u + d) · 1500 ε ≥ 4 ε · Σ |nᵢ| Lᵢ, with the triangle's unit
   normal n, its largest coordinates L and its distance d from the origin. Three products and two sums round a point by at most
   3 ε of L an axis (Higham 2002, section 3.1), of which Σ |nᵢ| goes across the triangle; the ray's test rounds likewise.
 
-A scene that meets both as it is placed is traced as it is placed. Any other is moved so that the origin is the point
-of its bounding box nearest to its camera, for what is near is seen large, and scaled by a power of two, which rounds
-nothing: u is 1 m where both needs let it be. Vertices, camera and lights are moved in double precision, before any of
+A scene that meets both as it is placed is traced as it is placed. Any other is moved so that the origin is that nearest
+point, for what is near is seen large, and scaled by a power of two, which rounds nothing: u is 1 m, or less so that it is at
+most 1/16 of the extent, or more where a triangle needs it. Vertices, camera and lights are moved in double precision, before any of
 them is rounded. Light is as it was: intensities (W/sr) grow with the square of lengths, irradiances and radiances stay.
 """
 
@@ -27,8 +27,11 @@ from lightmeter.scenes.model import Scene
 from lightmeter.scenes.moving import moved, scaled
 
 SHARE = 16.0
-"""The extent of a scene is at least so many times u, and its reach from the origin at most 16 times its extent: float32
-loses at most 4 of its 24 bits to where a scene is."""
+"""In a frame of its own a scene's extent is at least so many times u."""
+
+PLACED = 4.0
+"""1 m and the reach from the origin may together be so many times the extent of a scene that is traced as it is placed:
+float32 loses 2 of its 24 bits to where it is at most."""
 
 FINENESS = 1500.0 / 4.0
 """Triangles may have Σ |nᵢ| Lᵢ of so many times u + d."""
@@ -52,18 +55,19 @@ class Frame:
     @classmethod
     def of(cls, scene: Scene) -> "Frame":
         """The world's frame where that does, else one that suits the scene."""
-        corners = np.stack(scene.bounds)
-        origin = np.clip(scene.camera.position, *corners)
-        extent = float(np.abs(corners - origin).max())
-        if not 0 < extent < math.inf:
+        if _suits(scene):
             return WORLD
-        reach = float(np.abs(corners).max())
-        if 1.0 + reach <= SHARE * extent and _least_unit(scene, WORLD.origin, reach) <= 1.0:
+        viewer = scene.camera.position
+        near = moved(scene, -viewer)  # in double precision: far away float32 holds no bounds
+        corners = np.stack(near.bounds)
+        origin = np.clip(0.0, *corners)
+        extent = float(np.abs(corners - origin).max())
+        if not extent > 0:
             return WORLD
         unit = 2.0 ** math.floor(math.log2(min(1.0, extent / SHARE)))
-        if (least := _least_unit(scene, origin, extent)) > unit:
+        if (least := _least_unit(near, origin, extent)) > unit:
             unit = 2.0 ** math.ceil(math.log2(least))
-        return cls(origin, 1.0 / min(max(unit, 1.0 / MOST), MOST))
+        return cls(viewer + origin, 1.0 / min(max(unit, 1.0 / MOST), MOST))
 
     @property
     def is_world(self) -> bool:
@@ -93,6 +97,14 @@ class Frame:
 
 WORLD = Frame(np.zeros(3))
 """The frame of the scene's own description."""
+
+
+def _suits(scene: Scene) -> bool:
+    """Whether both needs are met as the scene is placed."""
+    corners = np.stack(scene.bounds)
+    reach = float(np.abs(corners).max())
+    extent = float(np.abs(corners - np.clip(scene.camera.position, *corners)).max())
+    return 1.0 + reach <= PLACED * extent and _least_unit(scene, WORLD.origin, reach) <= 1.0
 
 
 def _least_unit(scene: Scene, origin: np.ndarray, reach: float) -> float:
