@@ -5,15 +5,16 @@ A ray starts off its surface, lest it hit the surface that it leaves, by (1 + ma
 vertices are rounded besides. The 1 is a metre, whatever the scene's size: to a scene of a millimetre 0.1 mm is much, and
 too little on a triangle of kilometres, whose points are known to ε of its corners' coordinates. So there are two needs:
 
-- the offset must be small beside the scene: u + max |p| at most 4 extents, where u is the length that the 1 stands for,
-  and the extent is from the point of the scene's bounding box nearest to its camera;
+- the offset must be small beside what is seen large, which is what is near the camera: u + |o| at most 16 m and at most 4
+  extents, where u is the length that the 1 stands for, o the point of the scene's bounding box nearest to its camera, and
+  the extent is from there;
 - it must be larger than the error of a point on its triangle: (u + d) · 1500 ε ≥ 4 ε · Σ |nᵢ| Lᵢ, with the triangle's unit
   normal n, its largest coordinates L and its distance d from the origin. Three products and two sums round a point by at most
   3 ε of L an axis (Higham 2002, section 3.1), of which Σ |nᵢ| goes across the triangle; the ray's test rounds likewise.
 
-A scene that meets both as it is placed is traced as it is placed. Any other is moved so that the origin is that nearest
-point, for what is near is seen large, and scaled by a power of two, which rounds nothing: u is 1 m, or less so that it is at
-most 1/16 of the extent, or more where a triangle needs it. Vertices, camera and lights are moved in double precision, before any of
+A scene that meets both as it is placed is traced as it is placed. Any other is moved so that o is the origin, and scaled by
+a power of two, which rounds nothing: u is 1 m, or less so that it is at most 1/16 of the extent, or more where a triangle
+needs it. Vertices, camera and lights are moved in double precision, before any of
 them is rounded. Light is as it was: intensities (W/sr) grow with the square of lengths, irradiances and radiances stay.
 """
 
@@ -29,9 +30,8 @@ from lightmeter.scenes.moving import moved, scaled
 SHARE = 16.0
 """In a frame of its own a scene's extent is at least so many times u."""
 
-PLACED = 4.0
-"""1 m and the reach from the origin may together be so many times the extent of a scene that is traced as it is placed:
-float32 loses 2 of its 24 bits to where it is at most."""
+PLACED, NEAR = 4.0, 16.0
+"""u + |o| of a scene that is traced as it is placed: in extents, and in metres, where rays start 1.4 mm off what is near."""
 
 FINENESS = 1500.0 / 4.0
 """Triangles may have Σ |nᵢ| Lᵢ of so many times u + d."""
@@ -90,9 +90,9 @@ class Frame:
             return np.asarray(positions, np.float32)
         return (np.asarray(positions, np.float64) / self.scale + self.origin).astype(np.float32)
 
-    def shifted(self, by: np.ndarray) -> "Frame":
-        """The frame with its origin elsewhere; `by` (3,) is in this frame's lengths."""
-        return Frame(self.origin + by / self.scale, self.scale)
+    def about(self, point: np.ndarray) -> "Frame":
+        """The frame with its origin at one of its points: (3,), in this frame's lengths."""
+        return Frame(self.origin + point / self.scale, self.scale)
 
 
 WORLD = Frame(np.zeros(3))
@@ -102,9 +102,11 @@ WORLD = Frame(np.zeros(3))
 def _suits(scene: Scene) -> bool:
     """Whether both needs are met as the scene is placed."""
     corners = np.stack(scene.bounds)
-    reach = float(np.abs(corners).max())
-    extent = float(np.abs(corners - np.clip(scene.camera.position, *corners)).max())
-    return 1.0 + reach <= PLACED * extent and _least_unit(scene, WORLD.origin, reach) <= 1.0
+    nearest = np.clip(scene.camera.position, *corners)
+    extent = float(np.abs(corners - nearest).max())
+    if 1.0 + np.abs(nearest).max() > min(NEAR, PLACED * extent):
+        return False
+    return _least_unit(scene, WORLD.origin, float(np.abs(corners).max())) <= 1.0
 
 
 def _least_unit(scene: Scene, origin: np.ndarray, reach: float) -> float:

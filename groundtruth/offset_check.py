@@ -1,10 +1,12 @@
 """What float32 still does to the truth of a scene that is far from the origin, small, or large.
 
 Such a scene is path traced in a frame of its own (see `frame`), where the error of float32 is that of any scene at the
-origin. It remains where what the camera sees is far from that frame's origin too: rays start off their surface by
-(u + |p|) · 1500 ε. So the scene is path traced once more, with the same random numbers, in a frame whose origin is
-3 (u + |p|) away, |p| of the middle one of the points that are seen: there the offset is 4 times as large, and the roundings
-with it. Errors so small that they are linear differ by 3 times the error itself.
+origin. It remains where what the camera sees is far from that frame's origin too, or much smaller than its metre: rays
+start off their surface by (u + |p|) · 1500 ε. So the scene is path traced twice more, with the same random numbers:
+
+- about the middle of what is seen. Where the truth's frame is as good as that one, the two are the same;
+- in a frame whose origin is 3 (u + |p|) away from there: the offset is 4 times as large as it is in the truth's frame, and the
+  roundings with it. Errors so small that they are linear differ by 3 times the error itself.
 """
 
 import math
@@ -34,7 +36,7 @@ class OffsetCheck:
     """What float32 does to the reference of a scene.
 
     Attributes:
-        difference: RMS error of the truth by what a coarser frame makes of it, over the mean radiance; NaN where the
+        difference: RMS error of the truth by what other frames make of it, over the mean radiance; NaN where the
             truth is not finite.
         low: what of it is not noise: the lower end of its 95 % interval, or of the mean difference's, which fireflies
             hide less.
@@ -66,16 +68,16 @@ def is_far(scene: Scene) -> bool:
 
 
 def check_offset(scene: Scene, size: tuple[int, int] = (SIDE, SIDE), seed: int = 0) -> OffsetCheck:
-    """Path traces a small image of the scene in the truth's frame, and in one where float32 is four times as coarse.
+    """Path traces a small image of the scene in the truth's frame, about what is seen, and where float32 is coarser.
 
     Args:
         size: (width, height) of the image that is meant; its proportions alone matter.
 
     Raises:
-        InputError: in the coarser frame the scene has no finite pixel.
+        InputError: in another frame the scene has no finite pixel.
         NoRendererError: Mitsuba cannot run here.
     """
-    from lightmeter.groundtruth.primary import seen_distance
+    from lightmeter.groundtruth.primary import seen_places
     from lightmeter.groundtruth.reference import render_batch
     from lightmeter.groundtruth.world import World
 
@@ -86,17 +88,25 @@ def check_offset(scene: Scene, size: tuple[int, int] = (SIDE, SIDE), seed: int =
         return np.stack([render_batch(world, small, SPP, seed, batch) for batch in range(BATCHES)])
 
     world = World.of(scene)
-    away = (COARSER - 1) * (1.0 + seen_distance(world, small))
-    found = images(world)
-    coarse = images(World.of(scene, frame=world.frame.shifted(np.full(3, -away))))
-    finite = np.isfinite(coarse).all(axis=(0, 3))
+    found, places = images(world), seen_places(world, small)
+    middle = np.median(places, axis=0).astype(np.float64) if len(places) else np.zeros(3)
+    away = (COARSER - 1) * (1.0 + np.abs(middle).max())
+    better, coarser = (images(World.of(scene, frame=world.frame.about(p))) for p in (middle, middle - away))
     reach = float(np.abs(np.stack([*scene.bounds, scene.camera.position])).max())
-    comparison = Comparison(found, coarse, finite)
+    return max(
+        (_compared(found, better, 1.0, reach), _compared(found, coarser, COARSER - 1, reach)), key=lambda c: c.low
+    )
+
+
+def _compared(found: np.ndarray, other: np.ndarray, times: float, reach: float) -> OffsetCheck:
+    """What two sets of batches say of the error; they differ by so many times the error."""
+    finite = np.isfinite(other).all(axis=(0, 3))
+    comparison = Comparison(found, other, finite)
     square, shift = rmse(comparison), bias(comparison)
-    mean = float(np.mean([found[:, finite], coarse[:, finite]], dtype=np.float64))
+    mean = float(np.mean([found[:, finite], other[:, finite]], dtype=np.float64))
     if square.low is None or shift.low is None or shift.high is None:
         return OffsetCheck(math.nan, math.inf, reach)
     if not mean > 0:  # both are black
         return OffsetCheck(0.0, 0.0, reach)
-    error = mean * (COARSER - 1)
+    error = mean * times
     return OffsetCheck(square.value / error, max(square.low, shift.low, -shift.high) / error, reach)

@@ -52,15 +52,13 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
     return material.evaluate(world, bare)
 
 
-def seen_distance(world: World, size: tuple[int, int]) -> float:
-    """The median over what is seen at the pixels' centres of the largest coordinate, in the world's frame; 0: nothing is."""
-    pixel = dr.arange(mi.UInt32, size[0] * size[1])
-    middle = mi.Float(0.5)
+def seen_places(world: World, size: tuple[int, int]) -> np.ndarray:
+    """(N, 3) float32: what is seen at the pixels' centres, in the world's frame."""
+    pixel, middle = dr.arange(mi.UInt32, size[0] * size[1]), mi.Float(0.5)
     hit = rays.first_hit(world, PrimaryRays(world.scene.camera, size).through(pixel, middle, middle), mi.Bool(True))
-    largest, seen = dr.max(dr.abs(hit.p)), hit.is_valid()
-    dr.eval(largest, seen)
-    there = largest.numpy()[seen.numpy()]
-    return float(np.median(there)) if len(there) else 0.0
+    place, seen = hit.p, hit.is_valid()
+    dr.eval(place, seen)
+    return place.numpy().T[seen.numpy()]
 
 
 _STREAM = 0x5EE
