@@ -2,20 +2,21 @@
 
 A ray starts off its surface, lest it hit the surface that it leaves, by (1 + max |p|) · 1500 ε with ε = 2⁻²⁴ (Mitsuba's
 `SurfaceInteraction.offset_p`): 0.1 mm at the origin, 9 cm at a kilometre. What is nearer than that casts no shadow, and
-vertices are rounded besides. The 1 is a metre, whatever the scene's size: to a scene of a millimetre 0.1 mm is much, and
-too little on a triangle of kilometres, whose points are known to ε of its corners' coordinates. So there are two needs:
+vertices are rounded besides. The 1 is a metre, whatever the scene's size: to a scene of a millimetre 0.1 mm is much,
+and too little on a triangle of kilometres, whose points are known to ε of its corners' coordinates. Let u be the length
+that the 1 stands for, o the point of the scene's bounding box nearest to its camera, and the extent be from there, all
+by the largest coordinate. There are two needs:
 
-- the offset must be small beside what is seen large, which is what is near the camera: u + |o| at most 16 m and at most 4
-  extents, where u is the length that the 1 stands for, o the point of the scene's bounding box nearest to its camera, and
-  the extent is from there;
-- it must be larger than the error of a point on its triangle: (u + d) · 1500 ε ≥ 4 ε · Σ |nᵢ| Lᵢ, with the triangle's unit
-  normal n, its largest coordinates L and its distance d from the origin. Three products and two sums round a point by at most
-  3 ε of L an axis (Higham 2002, section 3.1), of which Σ |nᵢ| goes across the triangle; the ray's test rounds likewise.
+- the offset must be small beside what is seen large, which is what is near: u + |o| at most 16 m and 4 extents;
+- it must be larger than the error of a point on its triangle: (u + d) · 1500 ε ≥ 4 ε · Σ |nᵢ| Lᵢ, with the triangle's
+  unit normal n, its largest coordinates L, and d how near it comes to the origin. Three products and two sums round a
+  point by 3 ε of L an axis at most (Higham 2002, section 3.1), of which Σ |nᵢ| goes across the triangle; the ray's own
+  test rounds likewise.
 
-A scene that meets both as it is placed is traced as it is placed. Any other is moved so that o is the origin, and scaled by
-a power of two, which rounds nothing: u is 1 m, or less so that it is at most 1/16 of the extent, or more where a triangle
-needs it. Vertices, camera and lights are moved in double precision, before any of
-them is rounded. Light is as it was: intensities (W/sr) grow with the square of lengths, irradiances and radiances stay.
+A scene that meets both as it is placed is traced as it is placed. Any other is moved so that o is the origin, and
+scaled by a power of two, which rounds nothing: u is 1 m, or less so that it is at most 1/16 of the extent, or more
+where a triangle needs it. Vertices, camera and lights are moved in double precision, before any of them is rounded.
+Light is as it was: intensities (W/sr) grow with the square of lengths, irradiances and radiances stay.
 """
 
 import math
@@ -31,7 +32,8 @@ SHARE = 16.0
 """In a frame of its own a scene's extent is at least so many times u."""
 
 PLACED, NEAR = 4.0, 16.0
-"""u + |o| of a scene that is traced as it is placed: in extents, and in metres, where rays start 1.4 mm off what is near."""
+"""The most of u + |o| in a scene that is traced as it is placed: in extents, and in metres. At 16 m rays start 1.4 mm
+off their surface."""
 
 FINENESS = 1500.0 / 4.0
 """Triangles may have Σ |nᵢ| Lᵢ of so many times u + d."""

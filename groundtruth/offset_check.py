@@ -5,8 +5,8 @@ origin. It remains where what the camera sees is far from that frame's origin to
 start off their surface by (u + |p|) · 1500 ε. So the scene is path traced twice more, with the same random numbers:
 
 - about the middle of what is seen. Where the truth's frame is as good as that one, the two are the same;
-- in a frame whose origin is 3 (u + |p|) away from there: the offset is 4 times as large as it is in the truth's frame, and the
-  roundings with it. Errors so small that they are linear differ by 3 times the error itself.
+- in a frame whose origin is 3 (u + |p|) away from there: the offset is 4 times as large as it is in the truth's frame,
+  and the roundings with it. Errors so small that they are linear differ by 3 times the error itself.
 """
 
 import math
@@ -56,9 +56,9 @@ class OffsetCheck:
     def words(self) -> str:
         """One sentence with the remedy, for a check that does not hold."""
         return (
-            f"the reference is not to be trusted: in a scene that reaches {self.reach:.3g} m from the origin, float32 makes "
-            f"it wrong by about {100 * self.difference:.3g} % of the mean; put what is seen and the camera nearer together, "
-            "or leave out what is far away"
+            f"the reference is not to be trusted: in a scene that reaches {self.reach:.3g} m from the origin, float32 "
+            f"makes it wrong by about {100 * self.difference:.3g} % of the mean; put what is seen and the camera "
+            "nearer together, or leave out what is far away"
         )
 
 

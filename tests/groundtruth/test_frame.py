@@ -122,9 +122,10 @@ RADIUS = 0.4
 """Metres of the stage: how far ambient occlusion reaches."""
 
 SAME = 0.02
-"""RMS difference over the mean of what is evaluated with the same random numbers. Rays start 2·10⁻⁴ of a scene's extent off
-their surfaces or less, and points that a G-buffer stores are rounded by less than that: a shadow's edge moves by 1/300 of a
-pixel. Of its 200 pixels less than one is likely to have one of its 8 samples on the other side: 1/8 of its light, over √200."""
+"""RMS difference over the mean of what is evaluated with the same random numbers. Rays start 2·10⁻⁴ of a scene's extent
+off their surfaces or less, and points that a G-buffer stores are rounded by less than that: a shadow's edge moves by
+1/300 of a pixel. Of 200 pixels less than one is likely to have one of its 8 samples on the other side, and that is
+1/8 of its light, over √200."""
 
 
 def difference(found: np.ndarray, expected: np.ndarray) -> float:

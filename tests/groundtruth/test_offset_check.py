@@ -31,8 +31,8 @@ def through_a_telescope(distance: float) -> Scene:
 
 @pytest.mark.parametrize("distance", [300.0, 1e4])
 def test_what_is_seen_far_from_everything_near_is_found(distance):
-    """The frame's origin is at the card, and rays in the box start 3 cm or 90 cm off their surfaces: of a box of 56 cm the
-    one is some, the other all. The one shows in a coarser frame too, the other only about the box."""
+    """The frame's origin is at the card, and rays in the box start 3 cm or 90 cm off their surfaces: of a box of 56 cm
+    the one is some, the other all. The one shows in a coarser frame too, the other only about the box."""
     found = check_offset(through_a_telescope(distance), SIZE)
     assert not found.holds, found
     assert found.reach == pytest.approx(1e6, rel=1e-3)
@@ -40,8 +40,8 @@ def test_what_is_seen_far_from_everything_near_is_found(distance):
 
 
 def test_each_of_the_other_frames_finds_what_is_wrong(monkeypatch):
-    """In place of one of them is the world's, with 9 cm at a kilometre: 12 % of a Cornell box, of which a third is laid to
-    the truth where the frame is meant to be the coarser one."""
+    """In place of one of them is the world's, with 9 cm at a kilometre: 12 % of a Cornell box, of which a third is laid
+    to the truth where the frame is meant to be the coarser one."""
     scene = moved(load("cornell-box"), 1e3 * AWAY)
     frame, about = Frame.of(scene), Frame.about
     world = -frame.origin * frame.scale  # the world's origin, in the frame
