@@ -87,11 +87,13 @@ def check_offset(scene: Scene, size: tuple[int, int] = (SIDE, SIDE), seed: int =
     def images(world: World) -> np.ndarray:
         return np.stack([render_batch(world, small, SPP, seed, batch) for batch in range(BATCHES)])
 
-    world = World.of(scene)
+    frame = Frame.of(scene)
+    world = World.of(scene, frame=frame)
     found, places = images(world), seen_places(world, small)
+    del world  # with several of them alive Dr.Jit compiles its kernels anew
     middle = np.median(places, axis=0).astype(np.float64) if len(places) else np.zeros(3)
     away = (COARSER - 1) * (1.0 + np.abs(middle).max())
-    better, coarser = (images(World.of(scene, frame=world.frame.about(p))) for p in (middle, middle - away))
+    better, coarser = (images(World.of(scene, frame=frame.about(p))) for p in (middle, middle - away))
     reach = float(np.abs(np.stack([*scene.bounds, scene.camera.position])).max())
     return max(
         (_compared(found, better, 1.0, reach), _compared(found, coarser, COARSER - 1, reach)), key=lambda c: c.low
