@@ -22,6 +22,7 @@ class StiffCase:
         size: (width, height) at which it is rendered.
         like: the case that must look the same, since only its coordinates differ; "": none.
         refused: a part of the message with which both sides refuse the scene; "": it is rendered.
+        scale: how many times as large it is as that case.
     """
 
     what: str
@@ -29,6 +30,7 @@ class StiffCase:
     size: tuple[int, int] = (24, 24)
     like: str = ""
     refused: str = ""
+    scale: float = 1.0
 
 
 def room(*more: Shape, ball: Material = GREY, lights=None, environment=None, max_depth: int = 4) -> Scene:

@@ -72,8 +72,8 @@ def test_a_fault_is_found(monkeypatch):
     """A NaN in a frame is located, and named."""
     made = stiff_scenes._render
 
-    def broken(device, case, seed, captured):
-        sides = made(device, case, seed, captured)
+    def broken(*arguments):
+        sides = made(*arguments)
         frame = sides.frame.copy()
         frame[2, 3, 0] = np.nan
         return replace(sides, frame=frame)
