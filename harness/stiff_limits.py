@@ -65,7 +65,7 @@ def _error_limits(entry: StressEntry) -> list[Limit]:
             NRMSE,
             entry.max,
             None,
-            Conditions(case.size, DEFAULT_SPP, entry.seed, None, (), (), (), ()),
+            Conditions(case.size, DEFAULT_SPP, entry.seed, None, (), (), (), case.settings),
         )
         for name, case in cases.items()
     ]

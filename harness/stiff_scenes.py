@@ -91,6 +91,7 @@ def _commands(name: str, case: StiffCase, refused: bool, words: str) -> tuple[st
     again = f"lightmeter stress --scenes {quote(name if library else case.like or name)}{words}"
     if refused or (case.like and not library):
         return (again,)
+    words += "".join(f" --set {effect}.{knob}={value:g}" for effect, knob, value in case.settings)
     width, height = case.size
     called = quote(PREFIX + name if library else name)
     return again, f"lightmeter compare {called} --size {width}x{height}{words}"
@@ -98,12 +99,20 @@ def _commands(name: str, case: StiffCase, refused: bool, words: str) -> tuple[st
 
 def _render(device: Device, case: StiffCase, seed: int, captured: bool, choice: Choice | None) -> _Sides:
     scene = case.scene()
-    plan = compile_plan(scene, effects(), choice)
+    plan = compile_plan(scene, effects(), _settled(choice or Choice(), case))
     renderer = Renderer(device, plan, case.size)
     frame = renderer.render().radiance
     capture = renderer.capture() if captured else None
     truth = reference(plan.true_scene, case.size, spp=SPP, batches=BATCHES, seed=seed).batches
     return _Sides(plan, frame, truth, capture)
+
+
+def _settled(choice: Choice, case: StiffCase) -> Choice:
+    """The choice with the case's own settings, where it says nothing else."""
+    settings = {effect: dict(knobs) for effect, knobs in choice.settings.items()}
+    for effect, knob, value in case.settings:
+        settings.setdefault(effect, {}).setdefault(knob, value)
+    return replace(choice, settings=settings)
 
 
 def _judge(found: Finding, made: _Sides) -> Finding:

@@ -23,6 +23,7 @@ class StiffCase:
         like: the case that must look the same, since only its coordinates differ; "": none.
         refused: a part of the message with which both sides refuse the scene; "": it is rendered.
         scale: how many times as large it is as that case.
+        settings: (effect, knob, value) in place of defaults, where these would cost much and show nothing.
     """
 
     what: str
@@ -31,6 +32,7 @@ class StiffCase:
     like: str = ""
     refused: str = ""
     scale: float = 1.0
+    settings: tuple[tuple[str, str, float], ...] = ()
 
 
 def room(*more: Shape, ball: Material = GREY, lights=None, environment=None, max_depth: int = 4) -> Scene:

@@ -64,6 +64,8 @@ def test_a_limit_on_an_error_is_one_on_the_frame_at_the_scenes_own_size():
     (limit,) = error_limits([StressEntry(scene="tall", metric="nrmse", max=0.5)])
     assert (limit.scene, limit.of, limit.metric, limit.high) == ("stiff/tall", "frame", "nrmse", 0.5)
     assert limit.conditions.size == (1, 16384)
+    (lights,) = error_limits([StressEntry(scene="thousand-lights", metric="nrmse", max=0.5)])
+    assert lights.conditions.settings == (("shadow_map", "resolution", 128),)
     assert len(error_limits([StressEntry(scene="*", metric="nrmse", max=1)])) == sum(
         not c.refused for c in CASES.values()
     )
