@@ -53,9 +53,9 @@ def error_limits(entries: Sequence[StressEntry]) -> tuple[Limit, ...]:
 def _error_limits(entry: StressEntry) -> list[Limit]:
     cases = {name: case for name, case in _of_library(entry).items() if not case.refused}
     if not cases:
+        hint = nearest(entry.subject, [name for name, case in CASES.items() if not case.refused])
         raise UsageError(
-            f"{_place(entry)}: its error is that of a stiff scene that is rendered; {nearest(entry.subject, CASES)}. A "
-            "scene of your own has [[limit]]"
+            f"{_place(entry)}: {NRMSE} is of a stiff scene that is rendered; {hint}. A scene of your own has [[limit]]"
         )
     return [
         Limit(
