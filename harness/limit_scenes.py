@@ -1,6 +1,7 @@
 """Which scenes a limit speaks of."""
 
 import re
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from lightmeter.failures import UsageError
@@ -10,7 +11,8 @@ SUFFIXES = (".toml", ".gltf", ".glb")
 
 
 def find_scenes(pattern: str, file: Path, place: str) -> list[str]:
-    """The scenes that `pattern` names: one of the library, or files, found from the limits file's folder.
+    """The scenes that `pattern` names: one of the library, stiff ones ("stiff/*": those that are rendered), or files,
+    found from the limits file's folder.
 
     Raises:
         UsageError: there are none; names the nearest.
@@ -19,6 +21,8 @@ def find_scenes(pattern: str, file: Path, place: str) -> list[str]:
 
     if pattern in library.names():
         return [pattern]
+    if stiff := _stiff(pattern):
+        return stiff
     folder = file.parent
     found = _files(pattern, folder, file)
     if found:
@@ -35,6 +39,13 @@ def same_scene(asked: str, scene: str) -> bool:
         and Path(scene).suffix in SUFFIXES
         and Path(asked).resolve() == Path(scene).resolve()
     )
+
+
+def _stiff(pattern: str) -> list[str]:
+    from lightmeter.scenes.stiff import CASES, PREFIX
+
+    names = [PREFIX + name for name, case in CASES.items() if not case.refused]
+    return [name for name in names if fnmatchcase(name, pattern)] if pattern.startswith(PREFIX) else []
 
 
 def _files(pattern: str, folder: Path, file: Path) -> list[str]:

@@ -45,6 +45,11 @@
     metric = "digits"
     min = 3
 
+    [[stress]]                  # on stiff scenes, see stiff_limits.py
+    scene = "*"
+    metric = "faults"
+    max = 0
+
 What a limit does not say, `[defaults]` says for it.
 """
 

@@ -1,4 +1,4 @@
-"""Limits on the arithmetic of shading functions: `[[stress]]` in lightmeter.toml.
+"""Limits on the arithmetic of shading functions, and on stiff scenes: `[[stress]]` in lightmeter.toml.
 
     [[stress]]
     effect = "cook_torrance"    # or function = "d_ggx"; neither: every function
@@ -13,7 +13,7 @@
     format = "fp16"             # none: fp32
 
 A limit is on the declared domain of the functions' arguments, α aside where `alpha` says so; or on a regime of the
-table's columns, by `regime`.
+table's columns, by `regime`. With `scene` in place of a function it is on stiff scenes, see stiff_limits.py.
 """
 
 import time
@@ -41,9 +41,10 @@ class StressEntry(Strict):
 
     effect: Name | None = None
     function: Name | None = None
-    metric: Literal["digits", "faults"]
+    scene: Name | None = None
+    metric: Literal["digits", "faults", "changed", "nrmse"]
     min: Annotated[float, Field(strict=True, ge=0, le=7, allow_inf_nan=False)] | None = None
-    max: Annotated[int, Field(strict=True, ge=0)] | None = None
+    max: Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)] | None = None
     alpha: Annotated[float, Field(strict=True, gt=0, le=1, allow_inf_nan=False)] | None = None
     regime: Name | None = None
     format: Literal["fp32", "fp16", "r11g11b10f", "mediump"] = "fp32"
@@ -51,23 +52,39 @@ class StressEntry(Strict):
 
     @model_validator(mode="after")
     def _whole(self):
-        if self.effect is not None and self.function is not None:
-            raise ValueError("a stress limit is on an effect or on a function, not on both")
+        if sum(on is not None for on in (self.effect, self.function, self.scene)) > 1:
+            raise ValueError("a stress limit is on an effect, on a function or on stiff scenes, not on several")
+        if self.scene is not None:
+            return self._of_scenes()
+        if self.metric in ("changed", "nrmse"):
+            raise ValueError(f'a stress limit with metric = "{self.metric}" is on stiff scenes: expected scene = NAME')
         if self.alpha is not None and self.regime is not None:
             raise ValueError("a stress limit has alpha or a regime, not both")
         if (self.metric == "digits") != (self.min is not None) or (self.metric == "faults") != (self.max is not None):
             raise ValueError('a stress limit is metric = "digits" with min, or metric = "faults" with max')
+        return self._counted()
+
+    def _of_scenes(self):
+        if self.metric == "digits" or self.max is None or self.min is not None:
+            raise ValueError('a stress limit on scenes is metric = "faults", "changed" or "nrmse" with max')
+        if self.alpha is not None or self.regime is not None or self.format != "fp32":
+            raise ValueError("alpha, regime and format are of functions, and this stress limit is on scenes")
+        return self._counted()
+
+    def _counted(self):
+        if self.metric == "faults" and self.max is not None and not self.max.is_integer():
+            raise ValueError(f"faults are counted: expected a whole number as max, got {self.max:g}")
         return self
 
     @property
     def subject(self) -> str:
         """What it is on."""
-        return self.function or self.effect or "every function"
+        return self.function or self.effect or self.scene or "every function"
 
     @property
     def words(self) -> str:
         """ "digits >= 3 for α ≥ 0.002 in fp16"."""
-        bound = f"digits >= {self.min:g}" if self.metric == "digits" else f"faults <= {self.max}"
+        bound = f"digits >= {self.min:g}" if self.metric == "digits" else f"{self.metric} <= {self.max:g}"
         where = f" for α ≥ {self.alpha:g}" if self.alpha is not None else f" in {self.regime}" if self.regime else ""
         return f"{bound}{where}" + (f" as {self.format}" if self.format != "fp32" else "")
 

@@ -1,7 +1,5 @@
 """Every engine's picture beside its FLIP map, all at one scale, small enough to be looked at together."""
 
-import base64
-import io
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,13 +14,14 @@ from lightmeter.reports.pictures import Pair, Space
 from lightmeter.reports.results import Candidate
 from lightmeter.reports.shown_names import short_name
 from lightmeter.reports.significant import show_value
+from lightmeter.reports.thumbnails import png_uri
 
 Mask = npt.NDArray[np.bool_] | None
 
 SIDE = 288
 _MAP = "flip"
 _COLOURS = "magma"
-_NOT_FINITE = (255, 0, 255)
+NOT_FINITE = (255, 0, 255)
 """As the viewer shows such a pixel of a picture."""
 
 
@@ -42,7 +41,7 @@ def engine_strip(
     mask = next((pair.mask for _, _, pair in shown if pair.mask is not None), None)
     return {
         "truth": _picture_uri(first.truth, first.space, None, curve),
-        "bar": _png_uri(np.ascontiguousarray(colour_map(_COLOURS).rgb[None, :, :])),
+        "bar": png_uri(np.ascontiguousarray(colour_map(_COLOURS).rgb[None, :, :])),
         "masked": mask is not None and not mask.all(),
         "engines": [
             {
@@ -66,11 +65,11 @@ def _picture_uri(image: npt.NDArray[np.float32], space: Space, mask: Mask, curve
     display = finite if space == "display" else (curve or srgb_curve()).apply(finite)
     small = reduced(np.where(bad, np.nan, np.clip(display, 0, 1)), mask)
     picture = np.round(255 * np.nan_to_num(small)).astype(np.uint8)
-    picture[~np.isfinite(small).all(axis=2)] = _NOT_FINITE
+    picture[~np.isfinite(small).all(axis=2)] = NOT_FINITE
     judged = _judged(mask)
     if judged is not None:
         picture[~judged] = MASKED
-    return _png_uri(picture)
+    return png_uri(picture)
 
 
 def _map_uri(pair: Pair, mask: Mask) -> str:
@@ -79,7 +78,7 @@ def _map_uri(pair: Pair, mask: Mask) -> str:
     if values is None:
         return ""
     small = reduced(values[..., None].astype(np.float64), mask)[..., 0]
-    return _png_uri(colourise(small, colour_map(_COLOURS), 0.0, 1.0, _judged(mask)))
+    return png_uri(colourise(small, colour_map(_COLOURS), 0.0, 1.0, _judged(mask)))
 
 
 def reduced(image: npt.NDArray[np.float64], mask: Mask, side: int = SIDE) -> npt.NDArray[np.float64]:
@@ -109,11 +108,3 @@ def _summed(image: npt.NDArray[np.float64], step: int) -> npt.NDArray[np.float64
     height, width = image.shape[:2]
     sums = np.add.reduceat(image, np.arange(0, height, step), axis=0)
     return np.add.reduceat(sums, np.arange(0, width, step), axis=1)
-
-
-def _png_uri(picture: npt.NDArray[np.uint8]) -> str:
-    from PIL import Image
-
-    buffer = io.BytesIO()
-    Image.fromarray(picture).save(buffer, "PNG", compress_level=6)
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")

@@ -3,27 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
+
+from lightmeter.reports.stiff_results import Finding, blamed, state
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 
-class Found(Protocol):
-    """What became of a scene; figures are over the mean of the reference, None: without meaning."""
-
-    name: str
-    error: float | None
-    noise: float | None
-    frame_changed: float | None
-    truth_changed: float | None
-    blame: tuple[tuple[str, float], ...]
-    words: str
-    refused: bool
-    finite: bool
-
-
-def stiff_table(findings: Sequence[Found]) -> Table:
+def stiff_table(findings: Sequence[Finding]) -> Table:
     """One row a scene; figures in per cent of the mean."""
     from rich.table import Table
     from rich.text import Text
@@ -37,11 +25,13 @@ def stiff_table(findings: Sequence[Found]) -> Table:
         table.add_column(column, justify="right")
     table.add_column("says", overflow="fold")
     for found in findings:
-        finite = "refused" if found.refused else "yes" if found.finite else "NO"
+        finite = {"finite": "yes", "not finite": "NO"}.get(state(found), "refused")
         figures = (found.error, found.noise, found.frame_changed, found.truth_changed)
         said = [found.words] if found.words else []
-        if found.blame and found.blame[0][1] >= 1e-3:
-            said.append("changed: " + ", ".join(f"{name} {_percent(share)} %" for name, share in found.blame))
+        if changed := blamed(found):
+            said.append("changed: " + ", ".join(f"{name} {_percent(share)} %" for name, share in changed))
+        if found.lengths:
+            said.append("in metres: " + ", ".join(found.lengths))
         table.add_row(found.name, finite, *map(_percent, figures), Text("; ".join(said)))
     return table
 

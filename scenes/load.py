@@ -9,7 +9,8 @@ def load(source: str | Path, camera: str | int | None = None) -> Scene:
     """The scene that `source` names.
 
     Args:
-        source: a name in the library, or the path of a `.toml`, `.gltf` or `.glb` file.
+        source: a name in the library, `stiff/` and that of a stiff scene, or the path of a `.toml`, `.gltf` or `.glb`
+            file.
         camera: which of a glTF file's cameras, by its name or its number from 0; the first unless given.
 
     Raises:
@@ -34,6 +35,10 @@ def load(source: str | Path, camera: str | int | None = None) -> Scene:
         return load_toml(Path(text))
     if text in library.names():
         return library.load(text)
+    if text.startswith("stiff/"):
+        from lightmeter.scenes.stiff import load_stiff
+
+        return load_stiff(text)
     raise SceneError(
         f"there is no scene {shown(text)}",
         expected="a name in the library, a .toml, a .gltf or a .glb",

@@ -57,7 +57,12 @@ def run(args: argparse.Namespace) -> int:
     rules = read_rules(config)
     confidence = rules.confidence if args.confidence is None else args.confidence
     seconds = rules.seconds if args.seconds is None else args.seconds
-    limits, candidates = _on_candidates(rules, words.candidates(args, args.config))
+    asked = words.candidates(args, args.config)
+    limits, candidates = _on_candidates(rules, asked)
+    if rules.stress and not asked:
+        from lightmeter.stiff_limits import error_limits
+
+        limits += error_limits([entry for entry in rules.stress if entry.scene])
     if args.truth:
         limits = tuple(_under(limit, args.truth) for limit in limits)
     store = None if args.no_store else Store(say=options.say)
@@ -67,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
     start = time.perf_counter()
     trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, report)]
+        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, config, report)]
     code = _exit_code(verdicts, args.strict)
     document = _document(verdicts, code, confidence, time.perf_counter() - start)
     if folder is not None:
@@ -117,13 +122,15 @@ def _needs_words(verdict) -> bool:
     return isnan(verdict.measurement.value) or verdict.scene == "stress"
 
 
-def _stress(entries, args: argparse.Namespace, report) -> list:
-    """The verdicts on shading functions; none where the run is narrowed to scenes or to a candidate."""
+def _stress(entries, args: argparse.Namespace, config: Path, report) -> list:
+    """The verdicts on shading functions and stiff scenes; none where the run is narrowed to scenes or a candidate."""
     if not entries or args.scenes or words.candidates(args, args.config):
         return []
+    from lightmeter.stiff_limits import judge_scenes
     from lightmeter.stress_limits import judge_all
 
-    return judge_all(entries, report)
+    functions = [entry for entry in entries if not entry.scene]
+    return [*judge_all(functions, report), *judge_scenes([e for e in entries if e.scene], config, report)]
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

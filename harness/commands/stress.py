@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from shlex import quote
 
 from lightmeter import options
 from lightmeter.failures import UsageError
@@ -26,8 +27,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         nargs="*",
         action="extend",
         metavar="SCENE",
-        help="stiff scenes in place of functions: these, or all; both sides of each are rendered and compared",
+        help="stiff scenes in place of functions: these, or all; both sides of each are rendered and compared; a scene "
+        "of your own (.toml, .glb, .gltf, a library name) beside its copies of other sizes and in another place",
     )
+    options.add_choice(parser)
     parser.add_argument("--seed", type=options.whole, default=0, metavar="N", help="names the inputs (default 0)")
     parser.add_argument("-o", "--output", metavar="DIR", help="where the page goes (default lightmeter-out/stress)")
     options.add_json(parser)
@@ -43,6 +46,8 @@ def run(args: argparse.Namespace) -> int:
         if args.effects or args.function:
             raise UsageError("--scenes: it takes the place of effects and functions; leave them out")
         return _scenes(args)
+    if words := _choice_words(args):
+        raise UsageError(f"{words.split()[0]}: it chooses what is drawn of scenes; give it with --scenes")
     from lightmeter.realtime.stress.naming import named, of_effects
 
     chosen = of_effects(args.effects)
@@ -94,24 +99,41 @@ def _all(chosen: list, args: argparse.Namespace) -> int:
 def _scenes(args: argparse.Namespace) -> int:
     from lightmeter.scenes.stiff import CASES, chosen
 
-    cases = chosen(args.scenes)
+    cases, words = chosen(args.scenes), options.words(args)
+    folder = options.output_folder(args.output or "lightmeter-out/stress")
 
+    from lightmeter.planning import this_device
+    from lightmeter.realtime.graph import Choice
     from lightmeter.reports.results_json import to_json
-    from lightmeter.stiff_scenes import examine
+    from lightmeter.reports.stiff_page import write_stiff
+    from lightmeter.reports.stiff_results import SCHEMA, StiffResults
+    from lightmeter.stiff_scenes import BATCHES, SPP, examine
 
-    findings = []
+    choice = Choice(words.only, words.without, words.use, words.settings)
+    again = _choice_words(args) + (f" --seed {args.seed}" if args.seed else "")
+    findings, pictures = [], {}
     with progress_bar() as report:
-        for found in examine(cases, CASES, args.seed):
+        for found in examine(cases, {**CASES, **cases}, args.seed, choice, again, pictures.__setitem__):
             findings.append(found)
             report("stiff scenes", len(findings), len(cases))
+    results = StiffResults(SCHEMA, args.seed, SPP, BATCHES, this_device(), findings)
+    page = write_stiff(folder, results, pictures)
     if args.json:
-        sys.stdout.write(to_json(findings))
-    else:
-        from lightmeter.reports.stiff_table import stiff_table
-        from lightmeter.terminal import console
+        sys.stdout.write(to_json(results))
+        print(f"report: {page}", file=sys.stderr)
+        return 0
+    from lightmeter.reports.stiff_table import stiff_table
+    from lightmeter.terminal import console
 
-        console().print(stiff_table(findings))
+    console().print(stiff_table(findings))
+    print(f"report: {page}")
     return 0
+
+
+def _choice_words(args: argparse.Namespace) -> str:
+    """The choice of effects as it was written, to be written again; "" for none."""
+    named = [f" --{name} {quote(value)}" for name in ("only", "without", "use") if (value := getattr(args, name))]
+    return "".join([*named, *(f" --set {quote(text)}" for text in args.set)])
 
 
 def _at_input(subject, args: argparse.Namespace) -> int:

@@ -5,8 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from ..effect import EffectError, Knobs
+from ..light_bounds import Rectangle
 from ..stage import Stage
 from .casters import DEPTH_ONLY, Casters
+from .seen import SeenSolid, looked_up, seen_solid
 from .views import ShadowViews, shadow_views
 
 
@@ -26,12 +28,19 @@ class ShadowMap:
 class ShadowPasses:
     """The shadow maps of one frame: lights with as many views share one map, since they are drawn one after the other.
 
+    Of a map just that is drawn which the frame's points look up; the rest is whatever it was.
+
+    Attributes:
+        near_by: whether a point looks up what lies within the reach of where it is on the map, and nothing else.
+
     Args:
         knobs: the technique's; `resolution` and `faces` are read here.
         folder: the technique's own.
         reach: texels around a point that its filter reads, moves of the point along its normal included.
         kept: see `Casters`.
     """
+
+    near_by = True
 
     def __init__(self, stage: Stage, knobs: Knobs, folder: Path, reach: int, kept: str = DEPTH_ONLY) -> None:
         self.stage, self.knobs, self.name = stage, knobs, folder.name
@@ -46,6 +55,8 @@ class ShadowPasses:
         self._casters = Casters(stage, str(knobs["faces"]), kept, folder)
         self._maps: dict[tuple[int, int], ShadowMap] = {}
         self._views: dict[int, ShadowViews] = {}
+        self._parts: dict[int, list[Rectangle | None]] = {}
+        self._solid: SeenSolid | None = None
 
     def views(self, light: int) -> ShadowViews:
         """The light's views."""
@@ -58,6 +69,21 @@ class ShadowPasses:
         scene = self.stage.scene
         return shadow_views(scene, scene.all_lights[light], self.resolution, self.border)
 
+    def parts(self, light: int) -> list[Rectangle | None]:
+        """The part of each of the light's views that is looked up, in its own texels; None where nothing is.
+
+        Points that are stored in few bits may lie elsewhere than the camera sees, and others are seen from elsewhere:
+        then all is.
+        """
+        if light not in self._parts:
+            views = self.views(light)
+            if self.near_by and self.stage.elsewhere is None and not self.stage.plan.stored():
+                self._solid = self._solid or seen_solid(self.stage.scene, self.stage.size)
+                self._parts[light] = looked_up(self._solid, views, self.resolution, self.border)
+            else:
+                self._parts[light] = [(0, 0, self.resolution, self.resolution)] * len(views.matrices)
+        return self._parts[light]
+
     def defines(self, light: int) -> dict[str, object]:
         """What the technique's shader is compiled with."""
         views = self.views(light)
@@ -69,15 +95,19 @@ class ShadowPasses:
         views = self.views(light)
         columns, _ = views.tiles
         framebuffer, side = self.map(views).framebuffer, self.resolution
-        framebuffer.viewport = (0, 0, *framebuffer.size)
         framebuffer.use()
-        self.clear(framebuffer)
         gl = self.stage.device.gl
         gl.enable_only(gl.DEPTH_TEST)
         values = self.uniforms(light)
-        for view, matrix in enumerate(views.matrices):
-            framebuffer.viewport = (view % columns * side, view // columns * side, side, side)
+        for view, (matrix, part) in enumerate(zip(views.matrices, self.parts(light), strict=True)):
+            if part is None:
+                continue
+            across, up = view % columns * side, view // columns * side
+            framebuffer.viewport = (across, up, side, side)
+            framebuffer.scissor = (across + part[0], up + part[1], *part[2:])
+            self.clear(framebuffer)
             self._casters.draw(values | {"view_projection": matrix}, views.excluded)
+        framebuffer.scissor = None
 
     def clear(self, framebuffer: Any) -> None:
         """Let the map show nothing."""

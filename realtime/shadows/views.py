@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -123,8 +124,10 @@ def cube_views(scene: Scene, position: np.ndarray, used: int, border: int, exclu
     """The six faces of a cube about a position; arguments as in `shadow_views`, `excluded` as in `ShadowViews`."""
     depths = _distances(scene, position)
     projection = _perspective(1 + 2 * border / used, *_clipping(depths))
-    faces = [projection @ _look(position, np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES]
-    return ShadowViews(np.stack(faces), np.append(position, 1.0), np.full(6, 2.0 / used), depths, excluded)
+    turns = _cube_turns()
+    away = -(turns[:, :3, :3] @ position)
+    faces = projection @ np.concatenate([turns[:, :, :3], np.append(away, np.ones((6, 1)), axis=1)[..., None]], axis=2)
+    return ShadowViews(faces, np.append(position, 1.0), np.full(6, 2.0 / used), depths, excluded)
 
 
 def _distances(scene: Scene, position: np.ndarray) -> tuple[float, float]:
@@ -145,6 +148,12 @@ def _perspective(tangent: float, near: float, far: float) -> np.ndarray:
     matrix = np.diag([1 / tangent, 1 / tangent, (far + near) / (near - far), 0.0])
     matrix[2, 3], matrix[3, 2] = 2 * far * near / (near - far), -1
     return matrix
+
+
+@cache
+def _cube_turns() -> np.ndarray:
+    """(6, 4, 4) world to the axes of each face of a cube about the origin."""
+    return np.stack([_look(np.zeros(3), np.array(d, float), np.array(up, float)) for d, up in CUBE_FACES])
 
 
 def _any_up(direction: np.ndarray) -> np.ndarray:

@@ -22,6 +22,8 @@ class StiffCase:
         size: (width, height) at which it is rendered.
         like: the case that must look the same, since only its coordinates differ; "": none.
         refused: a part of the message with which both sides refuse the scene; "": it is rendered.
+        scale: how many times as large it is as that case.
+        settings: (effect, knob, value) in place of defaults, where these would cost much and show nothing.
     """
 
     what: str
@@ -29,6 +31,8 @@ class StiffCase:
     size: tuple[int, int] = (24, 24)
     like: str = ""
     refused: str = ""
+    scale: float = 1.0
+    settings: tuple[tuple[str, str, float], ...] = ()
 
 
 def room(*more: Shape, ball: Material = GREY, lights=None, environment=None, max_depth: int = 4) -> Scene:

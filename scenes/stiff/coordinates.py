@@ -19,6 +19,8 @@ CASES = {
     "plain": StiffCase("nothing: what the others are compared with", room),
     "depth-range": StiffCase("the camera's far plane is 10⁷ times its near one", _deep, like="plain"),
     "offset": StiffCase("10⁶ m from the origin", lambda: moved(room(), np.array([1e6, 0.0, 0.0])), like="plain"),
-    "small": StiffCase("a thousand times smaller", lambda: scaled(room(), 1 / THOUSAND), like="plain"),
-    "large": StiffCase("a thousand times larger", lambda: scaled(room(), THOUSAND), like="plain"),
+    "small": StiffCase(
+        "a thousand times smaller", lambda: scaled(room(), 1 / THOUSAND), like="plain", scale=1 / THOUSAND
+    ),
+    "large": StiffCase("a thousand times larger", lambda: scaled(room(), THOUSAND), like="plain", scale=THOUSAND),
 }

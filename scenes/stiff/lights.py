@@ -36,7 +36,9 @@ CASES = {
     "sun-and-candle": StiffCase("10⁶ W/m² beside a tenth of a watt", sun_and_candle),
     "one-pixel-emitter": StiffCase("a lamp smaller than a pixel", one_pixel),
     "no-lights": StiffCase("no light of any kind", lambda: room(lights=(), environment=DARK)),
-    "thousand-lights": StiffCase("1,000 point lights", thousand, size=(16, 16)),
+    "thousand-lights": StiffCase(
+        "1,000 point lights", thousand, size=(16, 16), settings=(("shadow_map", "resolution", 128),)
+    ),
     "light-inside": StiffCase("a light in the middle of the ball", lambda: _lamp_at(0.0, 0.5, 0.0)),
     "light-on-surface": StiffCase("a light exactly on the floor", lambda: _lamp_at(0.8, 0.0, 0.8)),
     "light-on-vertex": StiffCase("a light exactly on the ball's top", lambda: _lamp_at(0.0, 1.0, 0.0)),

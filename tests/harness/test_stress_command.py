@@ -75,19 +75,65 @@ def test_stress_limits_that_make_no_sense(refused, tmp_path):
         return refused("gate")
 
     assert 'metric = "digits" with min' in said('metric = "digits"\nmax = 1')
-    assert "not on both" in said('metric = "faults"\nmax = 0\neffect = "lambert"\nfunction = "lambert"')
+    assert "not on several" in said('metric = "faults"\nmax = 0\neffect = "lambert"\nfunction = "lambert"')
     assert "did you mean 'grazing'" in said('metric = "faults"\nmax = 0\nregime = "grasing"\nfunction = "lambert"')
     assert "reaches no input" in said('metric = "digits"\nmin = 1\nalpha = 0.1\nfunction = "lambert"')
     assert "did you mean 'lambert'" in said('metric = "faults"\nmax = 0\neffect = "lamberd"')
 
 
-def test_stiff_scenes(run):
-    found = {f["name"]: f for f in run("stress", "--scenes", "nan-texel", "no-lights", "--json").json}
+def test_stiff_scenes(run, tmp_path):
+    document = run("stress", "--scenes", "nan-texel", "no-lights", "--use", "gtao", "--json", "-o", "out").json
+    found = {f["name"]: f for f in document["scenes"]}
     assert found["nan-texel"]["refused"]
     assert "1 NaN" in found["nan-texel"]["words"]
     assert found["no-lights"]["finite"]
+    assert document == json.loads((tmp_path / "out/stiff.json").read_text())
+    assert found["nan-texel"]["commands"] == ["lightmeter stress --scenes nan-texel --use gtao"]
+    again = "lightmeter compare stiff/no-lights --size 24x24 --use gtao"
+    assert found["no-lights"]["commands"][1] == again and again in (tmp_path / "out/stiff.html").read_text()
     table = run("stress", "--scenes", "inf-texel")
     assert table.code == 0
-    assert "refused" in table.out
+    assert "refused" in table.out and "stiff.html" in table.out
     assert "did you mean 'nan-texel'" in run("stress", "--scenes", "nan-texl").err.lower()
     assert "takes the place of effects" in run("stress", "gtao", "--scenes").err
+    assert "give it with --scenes" in run("stress", "gtao", "--use", "gtao").err
+
+
+def test_a_stiff_scene_is_a_scene_of_every_command(run, refused, tmp_path):
+    assert run("export", "stiff/duplicates", "-o", "out").code == 0
+    assert (tmp_path / "out/scene.gltf").exists()
+    assert "did you mean 'stiff/small'" in refused("compare", "stiff/smal").lower()
+    assert "1 NaN" in refused("compare", "stiff/nan-texel")
+
+
+def test_the_gate_holds_limits_on_stiff_scenes(run, tmp_path):
+    faults = '[[stress]]\nscene = "n*-texel"\nmetric = "faults"\nmax = 0\n'
+    changed = '[[stress]]\nscene = "coplanar-*"\nmetric = "changed"\nmax = 0.1\n'
+    error = '[[stress]]\nscene = "no-objects"\nmetric = "nrmse"\nmax = 0.1\n'
+    (tmp_path / "lightmeter.toml").write_text(faults + changed + error)
+    found = run("gate", "--json", "--junit", "junit.xml")
+    assert found.code == 1, found.err
+    statuses = {v["name"]: v["status"] for v in found.json["verdicts"]}
+    assert statuses == {
+        "stiff/no-objects/frame/nrmse": "PASS",
+        "stress/nan-texel/faults": "PASS",
+        "stress/negative-texel/faults": "PASS",
+        "stress/coplanar-reversed/changed": "FAIL",
+    }
+    assert "cook_torrance" in found.err and "lightmeter stress --scenes coplanar-reversed" in found.err
+    assert 'failures="1"' in (tmp_path / "junit.xml").read_text()
+
+
+def test_limits_on_scenes_that_make_no_sense(refused, tmp_path):
+    def said(text: str) -> str:
+        (tmp_path / "lightmeter.toml").write_text(f"[[stress]]\n{text}\n")
+        return refused("gate")
+
+    assert "on several" in said('scene = "small"\nfunction = "lambert"\nmetric = "faults"\nmax = 0')
+    assert "expected scene" in said('function = "lambert"\nmetric = "changed"\nmax = 0')
+    assert '"changed" or "nrmse" with max' in said('scene = "small"\nmetric = "digits"\nmin = 3')
+    assert "are of functions" in said('scene = "small"\nmetric = "changed"\nmax = 0.1\nalpha = 0.1')
+    assert "a whole number" in said('scene = "small"\nmetric = "faults"\nmax = 0.5')
+    assert "need not look like another" in said('scene = "white"\nmetric = "changed"\nmax = 0.1')
+    assert "did you mean 'slivers'" in said('scene = "sliver"\nmetric = "nrmse"\nmax = 0.1')
+    assert "no scene file" in said('scene = "sliver"\nmetric = "faults"\nmax = 0')

@@ -15,6 +15,9 @@ from lightmeter.scenes.model import DirectionalLight, Material, Shape, Texture
 
 from .small_scenes import LAMP, WHITE, camera, facing, image, moved, renderer, scene_of
 
+FACES = 3
+"""Of the lamp's cube: 1 m before the scene's box it sees 1.3 m of it to the left and 1.7 m below, but only 0.7 m to the
+right and 0.3 m above, less than 45° from straight ahead; nothing is behind it."""
 SUN = DirectionalLight("sun", (-0.3, -0.5, -0.8), (1, 1, 1))
 
 
@@ -55,16 +58,16 @@ def test_every_part_of_a_scene_adds_what_it_needs_and_no_more():
     """From the plane: an environment adds a background and its effect; a second shape adds shadows; and so on."""
     ball = Shape("ball", shapes.sphere(0.4, segments=16), WHITE, moved(z=0.6))
     plain = counted(scene_of(facing(WHITE), lights=(LAMP,)))
-    # Another shape: a shadow map (depth program and texture, six faces) and the comparison (program, buffer); a draw
-    # in the G-buffer; and light from one to the other (program and draw of the ambient term).
+    # Another shape: a shadow map (depth program and texture, those faces that see something) and the comparison
+    # (program, buffer); a draw in the G-buffer; and light from one to the other (program and draw of the ambient term).
     two = counted(scene_of(facing(WHITE), ball, lights=(LAMP,)))
     assert two[1]["shaders"] == plain[1]["shaders"] + 2 + 1
     assert two[1]["textures"] == plain[1]["textures"] + 2
-    assert two[2] == plain[2] + 1 + 6 + 1 + 1
+    assert two[2] == plain[2] + 1 + FACES + 1 + 1
     # A second light of the same kind has the same programs and textures: one map more to draw, and two passes.
     again = counted(scene_of(facing(WHITE), ball, lights=(LAMP, LAMP)))
     assert again[1]["shaders"] == two[1]["shaders"] and again[1]["textures"] == two[1]["textures"]
-    assert again[2] == two[2] + 6 + 2
+    assert again[2] == two[2] + FACES + 2
     # A directional one has a map of its own (one view) and a comparison of its own.
     sun = counted(scene_of(facing(WHITE), ball, lights=(LAMP, SUN)))
     assert sun[1]["shaders"] == two[1]["shaders"] + 1 and sun[1]["textures"] == two[1]["textures"] + 1
@@ -76,10 +79,10 @@ def test_every_part_of_a_scene_adds_what_it_needs_and_no_more():
 
 
 TECHNIQUES = {  # for one light: (shaders, textures, draws of the map) beyond the comparison's own shader, buffer, draw
-    "shadow_map": (LAMP, (1, 1, 6)),
-    "variance_shadow_map": (LAMP, (2, 3, 6 + 2)),  # casters and the mean; the map, its depth and one between
-    "exponential_shadow_map": (LAMP, (2, 3, 6 + 2)),
-    "moment_shadow_map": (LAMP, (2, 3, 6 + 2)),
+    "shadow_map": (LAMP, (1, 1, FACES)),
+    "variance_shadow_map": (LAMP, (2, 3, FACES + 2)),  # casters and the mean; the map, its depth and one between
+    "exponential_shadow_map": (LAMP, (2, 3, FACES + 2)),
+    "moment_shadow_map": (LAMP, (2, 3, FACES + 2)),
     "cascaded_shadow_map": (SUN, (1, 1, 4)),
 }
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from lightmeter import stiff_scenes
+from lightmeter.realtime.graph import Choice
 from lightmeter.scenes.errors import SceneError
 from lightmeter.scenes.model import Image, Texture
 from lightmeter.scenes.stiff import CASES, chosen
@@ -72,8 +73,8 @@ def test_a_fault_is_found(monkeypatch):
     """A NaN in a frame is located, and named."""
     made = stiff_scenes._render
 
-    def broken(device, case, seed, captured):
-        sides = made(device, case, seed, captured)
+    def broken(*arguments):
+        sides = made(*arguments)
         frame = sides.frame.copy()
         frame[2, 3, 0] = np.nan
         return replace(sides, frame=frame)
@@ -104,6 +105,15 @@ def test_a_texel_that_is_no_colour_is_located(value, words):
     with pytest.raises(SceneError, match=f"{words}, the first in row 1, column 4, channel 2"):
         Texture(Image(texels, "odd"))
     Texture(Image(np.zeros((1, 1, 3), np.float32)))
+
+
+def test_a_case_has_settings_of_its_own_where_nothing_else_is_asked_for():
+    case = CASES["thousand-lights"]
+    assert stiff_scenes._settled(Choice(), case).settings == {"shadow_map": {"resolution": 128}}
+    asked = Choice(settings={"shadow_map": {"resolution": 64, "filter": "hard"}})
+    assert stiff_scenes._settled(asked, case).settings == asked.settings
+    words = stiff_scenes._commands("thousand-lights", case, False, "")[1]
+    assert words.endswith("compare stiff/thousand-lights --size 16x16 --set shadow_map.resolution=128")
 
 
 def test_an_unknown_scene_is_named():

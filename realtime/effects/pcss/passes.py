@@ -8,7 +8,9 @@ from ...stage import Stage
 
 
 class Passes(ShadowPasses):
-    """Cubes of depth maps, seen from emissive surfaces' centres."""
+    """Cubes of depth maps, seen from emissive surfaces' centres; a point looks up all that may block it."""
+
+    near_by = False
 
     def __init__(self, stage: Stage, knobs: Knobs, folder) -> None:
         # Every comparison finds its own face of the cube: nothing reads across a face's edge.
