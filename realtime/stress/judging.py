@@ -53,27 +53,30 @@ def judged_slots(twin: Twin) -> list[int]:
     return [slot for slot, kind in enumerate(types) if kind not in ("int", "bool", "void")]
 
 
-def undecided(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
-    """(n,) lanes where float32 cannot tell the sign that a branch depends on: either side is right."""
+def undecided(twin: Twin, inputs: list[np.ndarray], eps: float = EPS) -> np.ndarray:
+    """(n,) lanes where numbers of this ε cannot tell the sign that a branch depends on: either side is right."""
     lanes = np.zeros(inputs[0].shape[1], bool)
     if twin.signs:
         with np.errstate(all="ignore"):
             for value, magnitude in twin.signs(*inputs):
-                lanes |= ~(np.abs(value) > 4 * EPS * magnitude)
+                lanes |= ~(np.abs(value) > 4 * eps * magnitude)
     return lanes
 
 
-def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST) -> Verdict:
+def judge(
+    twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST, eps: float = EPS
+) -> Verdict:
     """The verdict over lanes.
 
     Args:
         signed: the results that are negative by rights.
         smallest: of the format that the results are held in.
+        eps: of the numbers that are reckoned with.
     """
     n = inputs[0].shape[1]
     relative, absolute = np.zeros(n), np.zeros(n)
     nan, inf, negative = (np.zeros(n, bool) for _ in range(3))
-    unclear = undecided(twin, inputs)
+    unclear = undecided(twin, inputs, eps)
     floor = max(smallest, OF_CONSTANTS * twin.cancels)
     for slot in judged_slots(twin):
         e, g = exact[slot], got[slot]
@@ -81,7 +84,7 @@ def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SM
         nan |= sound & np.isnan(g).any(axis=0)
         inf |= sound & np.isinf(g).any(axis=0)
         size = np.max(np.abs(np.where(np.isfinite(e), e, 0)), axis=0)
-        allowed = twin.roundings * EPS * (size + twin.cancels)
+        allowed = twin.roundings * eps * (size + twin.cancels)
         negative |= (
             sound & (slot not in signed) & ((g < 0) & (e >= 0) & (-g > np.maximum(allowed, smallest))).any(axis=0)
         )
