@@ -101,9 +101,9 @@ class FunctionOnDevice:
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4}
 
 
-def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray], text: str | None = None):
+def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray], text: str | None = None, **given):
     """The function over lanes, once; see `FunctionOnDevice`."""
-    return FunctionOnDevice(device, twin, folder, text)(inputs)
+    return FunctionOnDevice(device, twin, folder, text, **given)(inputs)
 
 
 def _samplers(argument: Argument) -> list[str]:

@@ -1,7 +1,7 @@
 """Writes GLSL again with `held(…)` around every operation on numbers that are no whole ones.
 
-`held`, and the `held_` functions that stand in place of built-in ones, are overloaded, so that no types have to be known
-but one: whole numbers are left alone, since they size arrays and count loops.
+`held`, and the `held_` functions that stand in place of built-in ones, are overloaded, so that no types have to be
+known but one: whole numbers are left alone, since they size arrays and count loops.
 """
 
 import re
@@ -12,22 +12,19 @@ from typing import Any
 
 import numpy as np
 
-ONCE = frozenset(
-    "radians degrees sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log exp2 log2 sqrt inversesqrt fract "
-    "fma determinant inverse outerProduct matrixCompMult dFdx dFdy fwidth texture textureLod textureGrad textureOffset "
-    "textureProj texelFetch texelFetchOffset textureGather".split()
+ONCE = re.compile(
+    r"radians|degrees|a?(sin|cos|tan)h?|exp2?|log2?|(inverse)?sqrt|fract|fma|determinant|inverse|outerProduct|"
+    r"matrixCompMult|dFd[xy]|fwidth|texture(?!Size)\w*|texelFetch\w*|u?intBitsToFloat"
 )
 """Built-in functions whose result is rounded once."""
-EXACT = frozenset(
-    "abs sign floor ceil trunc round roundEven min max clamp step isnan isinf transpose any all not lessThan "
-    "lessThanEqual greaterThan greaterThanEqual equal notEqual uintBitsToFloat intBitsToFloat bool bvec2 bvec3 "
-    "bvec4".split()
+EXACT = re.compile(
+    r"abs|sign|floor|ceil|trunc|round(Even)?|min|max|clamp|step|isnan|isinf|transpose|any|all|not|"
+    r"(less|greater)Than(Equal)?|equal|notEqual|bool|bvec[234]"
 )
 """Those that give of half floats nothing that is none. All others are functions of `held/`, where those are written out
 that are a formula, or do not compile."""
-WHOLE = frozenset(
-    "int ivec2 ivec3 ivec4 uint uvec2 uvec3 uvec4 textureSize floatBitsToInt floatBitsToUint bitfieldReverse "
-    "bitfieldExtract bitfieldInsert bitCount findLSB findMSB".split()
+WHOLE = re.compile(
+    r"u?int|[iu]vec[234]|textureSize|floatBitsToU?[iI]nt|bitfield(Reverse|Extract|Insert)|bitCount|find[LM]SB"
 )
 """Types of whole numbers, and what gives such."""
 CONVERSIONS = re.compile(r"float|(vec|mat)[234]")
@@ -140,7 +137,7 @@ class _Writer:
         """Of a constant whose value calls a function a variable is made: that is no constant expression."""
         if not _text(node).startswith("const"):
             return self._as_it_is(node)
-        if _text(node.child_by_field_name("type")) in WHOLE:
+        if WHOLE.fullmatch(_text(node.child_by_field_name("type"))):
             return self._verbatim(node)
         written = self._as_it_is(node)
         return written.removeprefix("const").lstrip() if "held" in written else written
@@ -169,12 +166,12 @@ class _Writer:
         name = _called(node)
         name = self._macros.get(name, name)
         written = self._as_it_is(node)
-        if name in self._defined or name in EXACT or name in WHOLE:
+        if name in self._defined or EXACT.fullmatch(name) or WHOLE.fullmatch(name):
             return written
         if CONVERSIONS.fullmatch(name):
             given = node.child_by_field_name("arguments").named_children
             return f"held({written})" if any(map(self._is_rounded, given)) else written
-        return f"held({written})" if name in ONCE else f"held_{written}"
+        return f"held({written})" if ONCE.fullmatch(name) else f"held_{written}"
 
     def _is_rounded(self, node: Node) -> bool:
         """Whether an argument is of whole numbers that a half float may not hold."""
@@ -193,7 +190,7 @@ class _Writer:
             case "identifier":
                 return _text(node) in self._whole or _is_whole_literal(self._macros.get(_text(node), ""))
             case "call_expression":
-                return _called(node) in WHOLE | self._whole
+                return _called(node) in self._whole or WHOLE.fullmatch(_called(node)) is not None
             case "field_expression" | "subscript_expression" | "unary_expression" | "update_expression":
                 return parts("argument")
             case "binary_expression":
@@ -265,7 +262,7 @@ def _declared(nodes: Iterable[Node]) -> tuple[set[str], set[str]]:
     other: set[str] = set()
     for node in nodes:
         if node.type in ("declaration", "parameter_declaration", "function_definition"):
-            names = whole if _text(node.child_by_field_name("type")) in WHOLE else other
+            names = whole if WHOLE.fullmatch(_text(node.child_by_field_name("type"))) else other
             names |= {_name(declared) for declared in node.children_by_field_name("declarator")}
     return whole - other, other
 

@@ -1,14 +1,14 @@
 """Shading functions with every operation rounded to half floats, as a mobile GPU's `mediump` may round it.
 
 The shader is parsed and written again with `held(…)` around each operation, as ANGLE does for
-WEBGL_debug_shader_precision (Etuaho 2014). Once each are rounded: + − × ÷ of numbers and component by component, those
-built-in functions that are no formula (√, exp, log, sin, atan …), what a texture gives, and a literal. What GLSL defines
-by a formula is rounded at every step of it: dot, length, distance, normalize, cross, reflect, refract, mix, mod,
-smoothstep, products of matrices, and pow = exp2(y·log2(x)) (OpenGL Shading Language 4.60, section 4.7.1: these
-"inherit" the formula's precision). Whole numbers stay exact.
+WEBGL_debug_shader_precision. Rounded once are + − × ÷ of numbers and of components, built-in functions that are no
+formula (√, exp, log, sin, atan …), what a texture gives, and literals. What GLSL defines by a formula is rounded at
+every step of it: dot, length, distance, normalize, cross, reflect, refract, mix, mod, smoothstep, products of
+matrices, and pow = exp2(y·log2(x)); their precision is their formula's (OpenGL Shading Language 4.60, section 4.7.1).
+Whole numbers stay exact.
 
-A half float here is IEEE 754's binary16, to nearest, with its denormals, and infinite beyond 65,504. GLSL ES asks of
-mediump for less: denormals may be flushed (`flush`), and overflow need not be infinite.
+A half float here is IEEE 754's binary16, to nearest, with its denormals, and infinite beyond 65,504. GLSL ES asks less
+of mediump: denormals may be 0 (`flush`), and what overflows may stay at the largest number.
 """
 
 from collections.abc import Sequence

@@ -63,9 +63,7 @@ def undecided(twin: Twin, inputs: list[np.ndarray], eps: float = EPS) -> np.ndar
     return lanes
 
 
-def judge(
-    twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST, eps: float = EPS
-) -> Verdict:
+def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST, eps: float = EPS) -> Verdict:
     """The verdict over lanes.
 
     Args:
