@@ -53,13 +53,13 @@ def judged_slots(twin: Twin) -> list[int]:
     return [slot for slot, kind in enumerate(types) if kind not in ("int", "bool", "void")]
 
 
-def undecided(twin: Twin, inputs: list[np.ndarray], eps: float = EPS) -> np.ndarray:
-    """(n,) lanes where numbers of this ε cannot tell the sign that a branch depends on: either side is right."""
+def undecided(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
+    """(n,) lanes where float32 cannot tell the sign that a branch depends on: either side is right."""
     lanes = np.zeros(inputs[0].shape[1], bool)
     if twin.signs:
         with np.errstate(all="ignore"):
             for value, magnitude in twin.signs(*inputs):
-                lanes |= ~(np.abs(value) > 4 * eps * magnitude)
+                lanes |= ~(np.abs(value) > 4 * EPS * magnitude)
     return lanes
 
 
@@ -69,12 +69,12 @@ def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SM
     Args:
         signed: the results that are negative by rights.
         smallest: of the format that the results are held in.
-        eps: of the numbers that are reckoned with.
+        eps: of the numbers that are reckoned with: so far below 0 their rounding alone may lead.
     """
     n = inputs[0].shape[1]
     relative, absolute = np.zeros(n), np.zeros(n)
     nan, inf, negative = (np.zeros(n, bool) for _ in range(3))
-    unclear = undecided(twin, inputs, eps)
+    unclear = undecided(twin, inputs)
     floor = max(smallest, OF_CONSTANTS * twin.cancels)
     for slot in judged_slots(twin):
         e, g = exact[slot], got[slot]
