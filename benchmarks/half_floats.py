@@ -35,7 +35,7 @@ FUNCTIONS = (
     "shared/gltf_brdf",
 )
 ROUGHNESSES = np.geomspace(0.02, 1, 41)
-COSINES = np.geomspace(1e-3, 1, 41)
+COSINES = np.geomspace(1e-3, 0.99, 41)
 STEEP, ROUGH = 0.2, 0.7
 """What a cosine is at least while roughness varies, and what roughness is while the light's cosine varies."""
 LANES = 8192

@@ -17,8 +17,8 @@ from .half_floats import FunctionInHalfFloats
 FORMS = ("ggx_textbook", "ggx_cross")
 ARITHMETIC = {
     "fp32": FunctionOnDevice,
-    "fp16": FunctionInHalfFloats,
-    "fp16, denormals flushed": partial(FunctionInHalfFloats, flush=True),
+    "mediump": FunctionInHalfFloats,
+    "mediump, denormals flushed": partial(FunctionInHalfFloats, flush=True),
 }
 UP = np.array([[0.0], [0.0], [1.0]])
 WITHIN = 3.0
