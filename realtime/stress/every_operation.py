@@ -21,8 +21,8 @@ EXACT = re.compile(
     r"abs|sign|floor|ceil|trunc|round(Even)?|min|max|clamp|step|isnan|isinf|transpose|any|all|not|"
     r"(less|greater)Than(Equal)?|equal|notEqual|bool|bvec[234]"
 )
-"""Those that give of half floats nothing that is none. All others are functions of `held/`, where those are written out
-that are a formula, or do not compile."""
+"""Those whose result a half float holds, given half floats. All others are functions of `held/`, where those that are a
+formula are written out, or do not compile."""
 WHOLE = re.compile(
     r"u?int|[iu]vec[234]|textureSize|floatBitsToU?[iI]nt|bitfield(Reverse|Extract|Insert)|bitCount|find[LM]SB"
 )
@@ -61,6 +61,7 @@ class _Writer:
     """
 
     def __init__(self, root: Node, function: str) -> None:
+        self._root = root
         if root.has_error:
             self._misread(next(node for node in _within(root) if node.type == "ERROR" or node.is_missing))
         outside = list(_outside(root))
@@ -82,8 +83,9 @@ class _Writer:
         return reached
 
     def _misread(self, node: Node) -> str:
-        line, text = node.start_point[0] + 1, _unmarked(_text(node.parent))
-        raise RewritingError(f"line {line} of a shader was not understood: {text!r}")
+        row = node.start_point[0]
+        line = _unmarked(_text(self._root).split("\n")[row].strip())
+        raise RewritingError(f"line {row + 1} of a shader was not understood: {line!r}")
 
     _cast_expression = _pointer_expression = _misread
 
@@ -93,10 +95,9 @@ class _Writer:
 
     def _as_it_is(self, node: Node, condition: Node | None = None) -> str:
         """The node's text, its children written again, all but a condition."""
-        text = node.text.decode()
-        if not node.children:
-            return _unmarked(text)
         raw, parts, end = node.text, [], 0
+        if not node.children:
+            return _unmarked(raw.decode())
         for child in node.children:
             start, stop = child.start_byte - node.start_byte, child.end_byte - node.start_byte
             parts.append(raw[end:start].decode())
@@ -190,7 +191,10 @@ class _Writer:
             case "identifier":
                 return _text(node) in self._whole or _is_whole_literal(self._macros.get(_text(node), ""))
             case "call_expression":
-                return _called(node) in self._whole or WHOLE.fullmatch(_called(node)) is not None
+                name, given = _called(node), node.child_by_field_name("arguments").named_children
+                if EXACT.fullmatch(name):
+                    return all(self._is_whole(argument) for argument in given)
+                return name in self._whole or WHOLE.fullmatch(name) is not None
             case "field_expression" | "subscript_expression" | "unary_expression" | "update_expression":
                 return parts("argument")
             case "binary_expression":
