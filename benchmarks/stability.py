@@ -23,7 +23,7 @@ from lightmeter.realtime.stress.ggx_forms import Curve, curves, least_alpha
 # Okabe & Ito 2008; the dash tells the arithmetic, so that no colour has to.
 COLOURS = {"ggx_textbook": "#D55E00", "ggx_cross": "#0072B2"}
 NAMES = {"ggx_textbook": "textbook", "ggx_cross": "cross product"}
-DASHES = {"fp32": "-", "fp16": "--", "fp16, denormals flushed": ":"}
+DASHES = {"fp32": "-", "mediump": "--", "mediump, denormals flushed": ":"}
 CLAMPS = {0.045: "Filament, desktop: 0.045", 0.089: "Filament, mobile: 0.089"}
 
 

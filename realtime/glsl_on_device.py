@@ -1,12 +1,13 @@
 """Evaluates a GLSL function on the device over many inputs, and finds the functions that a file defines."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from .device import Device
-from .shaders import SHARED, source
+from .shaders import SHARED, Source, source
 from .twin import Argument, Twin
 from .uniforms import bind, set_uniforms
 
@@ -42,16 +43,26 @@ class FunctionOnDevice:
     Args:
         folder: where the twin's file lies, or an effect's folder beside the shared shaders.
         text: in place of the file's own, for planting mistakes.
+        rewrite: makes of the shader with the function, whole and with what it includes, another one.
 
     Raises:
         DeviceError: the file does not compile.
     """
 
-    def __init__(self, device: Device, twin: Twin, folder: Path, text: str | None = None) -> None:
+    def __init__(
+        self,
+        device: Device,
+        twin: Twin,
+        folder: Path,
+        text: str | None = None,
+        rewrite: Callable[[str], str] = lambda text: text,
+    ) -> None:
         self._device, self._arguments = device, [a for a in twin.arguments if not a.out]
         self._outs = [a for a in twin.arguments if a.out]
         self._widths = [WIDTHS.get(t, 1) for t in (twin.result, *(a.type for a in self._outs))]
-        self._program = device.program(source(_shader(twin, folder, text), twin.defines, folder))
+        body = '#include "surface.glsl"\n' + (text_of(twin, folder) if text is None else text)
+        functions = rewrite(source(body, twin.defines, folder).text)
+        self._program = device.program(Source(functions + _main(twin)))
         self._vertices = device.fullscreen(self._program)
         self._uniforms = dict(twin.uniforms)
 
@@ -90,9 +101,9 @@ class FunctionOnDevice:
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4}
 
 
-def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray], text: str | None = None):
+def evaluate(device: Device, twin: Twin, folder: Path, inputs: list[np.ndarray], text: str | None = None, **given):
     """The function over lanes, once; see `FunctionOnDevice`."""
-    return FunctionOnDevice(device, twin, folder, text)(inputs)
+    return FunctionOnDevice(device, twin, folder, text, **given)(inputs)
 
 
 def _samplers(argument: Argument) -> list[str]:
@@ -100,8 +111,8 @@ def _samplers(argument: Argument) -> list[str]:
     return [f"in_{argument.name}_{i}" for i in range(-(-argument.size // 4))]
 
 
-def _shader(twin: Twin, folder: Path, text: str | None) -> str:
-    """A fragment shader that reads the arguments, calls the function and writes what it gives."""
+def _main(twin: Twin) -> str:
+    """A fragment shader's end, which reads the arguments, calls the function and writes what it gives."""
     samplers, reads = [], []
     for argument in twin.arguments:
         if argument.out:
@@ -116,8 +127,7 @@ def _shader(twin: Twin, folder: Path, text: str | None) -> str:
     call = f"{twin.function}({', '.join(f'{a.name}_' for a in twin.arguments)})"
     return "\n".join(
         [
-            '#include "surface.glsl"',
-            text_of(twin, folder) if text is None else text,
+            "",
             *(f"uniform sampler2D {name};" for name in samplers),
             *(f"layout(location = {i}) out vec4 out_{i};" for i in range(1 + len(outs))),
             "vec4 wide(float x) { return vec4(x); }",

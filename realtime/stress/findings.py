@@ -6,8 +6,8 @@ FORMATS = {
     "fp32": "a float32 target: the function's own arithmetic",
     "fp16": "the float32 result written to a half-float target (RGBA16F)",
     "r11g11b10f": "the float32 result written to an R11F_G11F_B10F target; not for results that may be negative",
-    "mediump": "inputs and result rounded to half floats, arithmetic between in float32: the best mediump can do. "
-    "The error is against the exact result of the unrounded inputs",
+    "mediump": "inputs and every operation rounded to half floats, as a mobile GPU may do it; attainable is what "
+    "half-float inputs leave. The error is against the exact result of the unrounded inputs",
 }
 FAULTS = ("NaN", "inf", "negative")
 

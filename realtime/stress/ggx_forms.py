@@ -1,7 +1,8 @@
 """GGX in the textbook's form and in that of the cross product: digits kept against α, in float32 and in mediump."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,14 @@ from lightmeter.scenes.optics import microfacet
 from ..device import Device
 from ..glsl_on_device import FunctionOnDevice
 from ..twin import Argument, Twin, direction, logarithmic
+from .half_floats import FunctionInHalfFloats
 
 FORMS = ("ggx_textbook", "ggx_cross")
-ARITHMETIC = {"fp32": {}, "fp16": {"HALF": True}, "fp16, denormals flushed": {"HALF": True, "FLUSH": True}}
+ARITHMETIC = {
+    "fp32": FunctionOnDevice,
+    "mediump": FunctionInHalfFloats,
+    "mediump, denormals flushed": partial(FunctionInHalfFloats, flush=True),
+}
 UP = np.array([[0.0], [0.0], [1.0]])
 WITHIN = 3.0
 """Half vectors up to this many α from the normal: there D is down to a hundredth of its peak."""
@@ -51,10 +57,10 @@ def curves(device: Device, alphas: Sequence[float], lanes: int = 1024, seed: int
         Argument("alpha", "float", logarithmic(1e-6, 1)),
     )
     found = []
-    for arithmetic, defines in ARITHMETIC.items():
+    for arithmetic, on_device in ARITHMETIC.items():
         for form in FORMS:
-            twin = Twin("ggx_forms.glsl", form, "float", arguments, exact, 20, "", defines=defines)
-            function = FunctionOnDevice(device, twin, Path(__file__).parent)
+            twin = Twin("ggx_forms.glsl", form, "float", arguments, exact, 20, "")
+            function = on_device(device, twin, Path(__file__).parent)
             kept, peak = [], []
             for alpha in alphas:
                 n, h = _about(rng, alpha, lanes)
@@ -76,7 +82,7 @@ def _about(rng: np.random.Generator, alpha: float, lanes: int) -> tuple[np.ndarr
     return n, h
 
 
-def _errors(function: FunctionOnDevice, n: np.ndarray, h: np.ndarray, alpha: float) -> np.ndarray:
+def _errors(function: Callable, n: np.ndarray, h: np.ndarray, alpha: float) -> np.ndarray:
     a = np.full((1, n.shape[1]), np.float32(alpha), np.float64)
     got, true = function([n, h, a])[0][0], exact(n, h, a[0])
     with np.errstate(invalid="ignore"):

@@ -63,12 +63,13 @@ def undecided(twin: Twin, inputs: list[np.ndarray]) -> np.ndarray:
     return lanes
 
 
-def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST) -> Verdict:
+def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SMALLEST, eps: float = EPS) -> Verdict:
     """The verdict over lanes.
 
     Args:
         signed: the results that are negative by rights.
         smallest: of the format that the results are held in.
+        eps: of the numbers that are reckoned with: so far below 0 their rounding alone may lead.
     """
     n = inputs[0].shape[1]
     relative, absolute = np.zeros(n), np.zeros(n)
@@ -81,7 +82,7 @@ def judge(twin: Twin, inputs, got, exact, signed: set[int], smallest: float = SM
         nan |= sound & np.isnan(g).any(axis=0)
         inf |= sound & np.isinf(g).any(axis=0)
         size = np.max(np.abs(np.where(np.isfinite(e), e, 0)), axis=0)
-        allowed = twin.roundings * EPS * (size + twin.cancels)
+        allowed = twin.roundings * eps * (size + twin.cancels)
         negative |= (
             sound & (slot not in signed) & ((g < 0) & (e >= 0) & (-g > np.maximum(allowed, smallest))).any(axis=0)
         )

@@ -4,6 +4,7 @@ import math
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
@@ -14,6 +15,7 @@ from ..glsl_on_device import FunctionOnDevice
 from ..twin import Twin
 from .design import Design, Inputs
 from .findings import FAULTS, FORMATS, Cell, Example, Stressed
+from .half_floats import FunctionInHalfFloats
 from .judging import EPS, HALF_NORMAL, HALF_STEP, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
 from .regimes import Marks, marks_of
 
@@ -25,7 +27,7 @@ Regime = Callable[[Marks], np.ndarray]
 NONE: Mapping[str, Regime] = MappingProxyType({})
 STEPS = {"mediump": HALF_STEP}
 """Half a rounding of the inputs, where it is not float32's."""
-TARGETS = {"fp32": "f4", "fp16": "f2", "r11g11b10f": "r11g11b10f", "mediump": "f2"}
+TARGETS = {"fp32": "f4", "fp16": "f2", "r11g11b10f": "r11g11b10f"}
 
 
 def digits(relative: float) -> float:
@@ -48,6 +50,7 @@ class Stress:
     ) -> None:
         self.name, self.twin, self._asked = name, twin, asked
         self._function = FunctionOnDevice(device, twin, folder)
+        self._in_half_floats = cache(lambda: FunctionInHalfFloats(device, twin, folder))
         self.design = Design(twin, np.random.default_rng((seed, zlib.crc32(name.encode()))))
         self._cells: dict[str, dict[str, Cell]] = {}
         self._elite: Inputs | None = None
@@ -102,16 +105,11 @@ class Stress:
         return examples
 
     def _got(self, form: str, inputs: Inputs) -> list[np.ndarray]:
-        if form == "mediump":
-            with np.errstate(over="ignore"):
-                inputs = [
-                    x.astype(np.float16).astype(np.float64) if argument.continuous else x
-                    for argument, x in zip(self.design.arguments, inputs, strict=True)
-                ]
-        return self._function(inputs, TARGETS[form])
+        return self._in_half_floats()(inputs) if form == "mediump" else self._function(inputs, TARGETS[form])
 
     def _verdict(self, form: str, inputs: Inputs, got, exact) -> Verdict:
-        return judge(self.twin, inputs, got, exact, self._signed, SMALLEST if form == "fp32" else HALF_NORMAL)
+        smallest = SMALLEST if form == "fp32" else HALF_NORMAL
+        return judge(self.twin, inputs, got, exact, self._signed, smallest, 2 * STEPS.get(form, EPS / 2))
 
     def _take(self, form: str, inputs: Inputs, exact: list[np.ndarray] | None = None) -> None:
         """Evaluate lanes, and keep the worst of each regime."""

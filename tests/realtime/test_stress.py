@@ -123,6 +123,16 @@ def test_a_half_float_target_overflows_where_the_peak_exceeds_it(device):
     assert cells["fp32"]["α ≥ 0.0001"].digits > 6
 
 
+def test_a_light_beyond_256_m_vanishes_in_mediump(device):
+    """Its distance squared is beyond 65,504, and one over that 0: the direction to it is lost as well."""
+    (subject,) = named("from_position", subjects())
+    stress = Stress(device, subject.name, subject.twin, subject.folder)
+    near, far = (stress.at([np.array([[0.0], [0.0], [z]]), np.zeros((3, 1))]) for z in (255.0, 256.0))
+    assert near["mediump"].digits > 3
+    assert far["mediump"].got == [0, 0, 0, 0] and far["mediump"].digits == 0
+    assert far["fp32"].digits > 6 and far["fp16"].digits > 3
+
+
 def test_the_half_vector_of_opposite_directions_is_finite(device):
     """The guard under its root was once a denormal, which a device may flush to 0."""
     (subject,) = named("half_cosines", subjects())
@@ -170,7 +180,7 @@ def test_filaments_mobile_clamp_is_where_a_flushed_half_float_keeps_the_peak(dev
     """(α·n·h)² is a normal half float, 2⁻¹⁴, from α = 2⁻⁷ up: roughness 0.0884."""
     below, above = 0.0883**2, 0.0885**2
     found = {c.arithmetic: c for c in curves(device, [below, above], lanes=16) if c.form == "ggx_cross"}
-    flushed, kept = found["fp16, denormals flushed"], found["fp16"]
+    flushed, kept = found["mediump, denormals flushed"], found["mediump"]
     assert flushed.peak[0] < 1 < 2 < flushed.peak[1]
     assert kept.peak[0] > 2
 
