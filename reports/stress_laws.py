@@ -13,7 +13,7 @@ from lightmeter.reports.stress_results import words
 if TYPE_CHECKING:
     from rich.table import Table
 
-HEADINGS = ("function", "one-sided: model", "device", "largest albedo", "±", "device", "of")
+HEADINGS = ("function", "one-sided", "device", "albedo", "±", "device", "of")
 MEANING = (
     "One-sided: |f(v, l) − f(l, v)| over the larger, cosines from 0.001 (~: of the inputs' own rounding). Largest albedo: "
     "of light from everywhere, n·v from 0.01; ± is the quadrature's error and the function's roundings. The model is "
@@ -80,7 +80,8 @@ def law_table(laws: Mapping[str, Laws]) -> Table:
         table.add_column(heading, no_wrap=heading == "function", justify="left" if left else "right")
     for row, held in zip(rows(laws), laws.values(), strict=True):
         one_sided = "bold red" if held.one_sided in ("model", "device") else ""
-        styles = ["", one_sided, one_sided, *["bold red" if held.gains else ""] * 3, "dim"]
+        gains = "bold red" if held.gains else ""
+        styles = ["", one_sided, one_sided, gains, "", gains, "dim"]
         table.add_row(*(Text(text, style=style) for text, style in zip(row, styles, strict=True)))
     return table
 

@@ -14,6 +14,7 @@ from typing import Any
 from lightmeter.realtime.stress.findings import FORMATS, Cell, Stressed
 from lightmeter.realtime.stress.regimes import REGIMES
 from lightmeter.reports.results_json import to_json
+from lightmeter.reports.stress_laws import MEANING, rows, violations
 from lightmeter.reports.stress_results import StressResults, command, inherent, shown
 from lightmeter.reports.stress_table import safe_domain
 
@@ -45,6 +46,8 @@ def render_stress(results: StressResults) -> str:
         count=len(results.functions),
         seed=results.seed,
         data=_script_safe(_model(results)),
+        laws=_laws(results),
+        laws_meaning=MEANING,
     )
 
 
@@ -54,6 +57,18 @@ def _model(results: StressResults) -> dict[str, Any]:
         "regimes": [{"name": r, "meaning": REGIMES[r]} for r in regimes],
         "functions": [_function(f, regimes) for f in results.functions],
     }
+
+
+def _laws(results: StressResults) -> list[dict[str, Any]]:
+    return [
+        {
+            "cells": cells,
+            "one_sided": held.one_sided in ("model", "device"),
+            "gains": bool(held.gains),
+            "violations": violations(name, held),
+        }
+        for cells, (name, held) in zip(rows(results.laws), results.laws.items(), strict=True)
+    ]
 
 
 def _function(function: Stressed, regimes: list[str]) -> dict[str, Any]:

@@ -67,10 +67,10 @@ class Energy:
     def at(self, inputs: Inputs) -> Extreme:
         """The albedo of one surface, a lane of each argument, n·v above 0."""
         fine, coarse = (self.albedos(inputs, rule)[:, 0] for rule in (FINE, COARSE))
-        with np.errstate(invalid="ignore"):
-            apart = float(np.max(np.abs(fine - coarse)))
+        error = 0.0
+        if np.isfinite([fine, coarse]).all():
+            error = float(np.max(np.abs(fine - coarse)) + self._sides.twin.roundings * EPS * np.max(fine))
         words = {a.name: x[:, 0].tolist() for a, x in zip(self.arguments, inputs, strict=True)}
-        error = (apart if np.isfinite(apart) else 0.0) + self._sides.twin.roundings * EPS * float(np.min(fine))
         return Extreme(words, float(fine[0]), float(fine[0]), float(fine[1]), error)
 
     def defined(self, inputs: Inputs) -> np.ndarray:

@@ -48,6 +48,14 @@ class Laws:
         most = 1 + self.albedo.error
         return "model" if self.albedo.model > most else "device" if self.albedo.device > most else ""
 
+    def furthest(self, law: str) -> tuple[float, Extreme]:
+        """How far from being kept that law is on the device, and where; the model's where only the inputs break it."""
+        if law == ALBEDO:
+            assert self.albedo is not None
+            return self.albedo.device, self.albedo
+        model, device = self.reciprocity["model"], self.reciprocity["device"]
+        return (model.model, model) if self.one_sided == "inputs" else (device.device, device)
+
 
 LAWS = {RECIPROCITY: Reciprocity, ALBEDO: Energy}
 
