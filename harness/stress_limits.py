@@ -17,8 +17,8 @@
     max = 1.0
 
 A limit is on the declared domain of the functions' arguments, α aside where `alpha` says so; or on a regime of the
-table's columns, by `regime`. One on a law of reflection is on every BRDF among the functions, as the device evaluates it
-over the declared domain.
+table's columns, by `regime`. One on a law of reflection is on every BRDF among the functions, as the device evaluates
+it over the declared domain.
 """
 
 import time

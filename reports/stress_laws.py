@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 HEADINGS = ("function", "one-sided", "device", "albedo", "±", "device", "of")
 MEANING = (
-    "One-sided: |f(v, l) − f(l, v)| over the larger, cosines from 0.001 (~: of the inputs' own rounding). Largest albedo: "
-    "of light from everywhere, n·v from 0.01; ± is the quadrature's error and the function's roundings. The model is "
-    "the float64 twin."
+    "One-sided: |f(v, l) − f(l, v)| over the larger, cosines from 0.001 (~: of the inputs' own rounding). Albedo: the "
+    "largest, of light from everywhere, n·v from 0.01; ± is the quadrature's error and the function's roundings. Each "
+    "first by the model, the float64 twin."
 )
 CAUSES = {
     "model": "by its definition",

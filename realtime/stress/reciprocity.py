@@ -80,7 +80,7 @@ class Reciprocity:
         return np.all([c >= LEAST_COSINE for c in self._cosines(inputs)], axis=0)
 
     def _violations(self, inputs: Inputs) -> dict[str, np.ndarray]:
-        """(n,) of each, as `Extreme` has them; 0 where float32 cannot tell on which side of a branch one of the two lies."""
+        """(n,) of each, as `Extreme` has them; 0 where float32 cannot tell on which side of a branch either lies."""
         there = self._swapped(inputs)
         one, other = self._of_length_1(inputs), self._of_length_1(there)
         sides = {

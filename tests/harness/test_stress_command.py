@@ -53,7 +53,7 @@ def test_laws_of_a_brdf(run, tmp_path):
 
 
 def test_a_law_at_one_input(run, refused):
-    white = "base_color=1,1,1 metallic=1 roughness=1 specular=1".split()
+    white = ["base_color=1,1,1", "metallic=1", "roughness=1", "specular=1"]
     found = run("stress", "--function", "gltf_brdf", "--law", "albedo", "--input", *white, "n_dot_v=1")
     assert found.code == 0 and "0.30685" in found.out  # 1 − ln 2
     of = ("stress", "--law", "albedo", "--function")

@@ -134,9 +134,7 @@ def test_white_metals_albedo(device, roughness, cosine_, published):
 def test_gltfs_white_plastic_makes_energy_and_its_metal_does_not(device):
     """The base is dimmed by Fresnel at v·h, not at the surface's own angles (docs/shading-models.md: 1.535 at 0.1)."""
     subject = our("gltf_brdf")
-    at = law(ALBEDO, device, subject).at(
-        lane(base_color=(1, 1, 1), metallic=0, roughness=0.1, specular=1, n_dot_v=0.1)
-    )
+    at = law(ALBEDO, device, subject).at(lane(base_color=(1, 1, 1), metallic=0, roughness=0.1, specular=1, n_dot_v=0.1))
     assert at.device == pytest.approx(1.535, abs=1e-3)
     found = held(device, subject)
     assert found.gains == "model" and found.albedo is not None and found.albedo.model > 1.85
@@ -161,9 +159,7 @@ def test_a_coat_that_dims_by_the_view_alone_is_not_reciprocal(device):
     """KHR_materials_clearcoat's mix by F(n·v). Without a coat it is the Lambert base that is put below, and is."""
     reciprocity = law(RECIPROCITY, device, our("coated"))
     way = {"n": (0, 0, 1), "v": (0.6, 0, 0.8), "l": (0, 0.99, np.sqrt(1 - 0.99**2))}
-    coat, bare = (
-        reciprocity.at(lane(base=(0.2, 0.2, 0.2), clearcoat=c, roughness=0.3, **way)) for c in (1.0, 0.0)
-    )
+    coat, bare = (reciprocity.at(lane(base=(0.2, 0.2, 0.2), clearcoat=c, roughness=0.3, **way)) for c in (1.0, 0.0))
     assert coat.model > 0.1 and coat.device == pytest.approx(coat.model, abs=1e-5)
     assert bare.model < 1e-6 and bare.device < 1e-5
 

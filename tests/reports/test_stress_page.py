@@ -40,7 +40,10 @@ def sound() -> Laws:
 
 def broken() -> Laws:
     furthest = Extreme({"n": [0.0, 0.0, 1.0]}, 0.4, 0.4, 0.41)
-    return Laws({"model": furthest, "device": furthest}, Extreme({"rho": [1.0, 1.0, 1.0], "n_dot_v": [0.1]}, 1.3, 1.3, 1.2, 1e-3))
+    return Laws(
+        {"model": furthest, "device": furthest},
+        Extreme({"rho": [1.0, 1.0, 1.0], "n_dot_v": [0.1]}, 1.3, 1.3, 1.2, 1e-3),
+    )
 
 
 @pytest.fixture(scope="module")

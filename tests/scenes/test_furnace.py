@@ -47,7 +47,14 @@ def test_what_is_even_is_given_back_whole(cosine):
 
 @pytest.mark.parametrize(
     ("alpha", "cosine", "published"),
-    [(1, 1, 1 - np.log(2)), (0.25, 1, 0.9158), (0.09, 1, 0.9907), (1, 0.5, 0.4507), (0.25, 0.5, 0.8573), (0.09, 0.5, 0.9751)],
+    [
+        (1, 1, 1 - np.log(2)),
+        (0.25, 1, 0.9158),
+        (0.09, 1, 0.9907),
+        (1, 0.5, 0.4507),
+        (0.25, 0.5, 0.8573),
+        (0.09, 0.5, 0.9751),
+    ],
 )
 def test_ggx(alpha, cosine, published):
     """The first in closed form; the others to the digits that are published."""
@@ -55,7 +62,7 @@ def test_ggx(alpha, cosine, published):
 
 
 def test_a_mirrors_lobe_is_resolved_at_any_width():
-    """At normal incidence Lafortune's lobe returns all, for every exponent; aside nearly the mirror direction's cosine."""
+    """At normal incidence Lafortune's lobe returns all, for every exponent; aside nearly the mirror's cosine."""
     for exponent in (2.0, 50.0, 5e3, 5e5):
         assert albedo(mirror_power(exponent), 1.0) == pytest.approx(1, abs=1e-7)
     assert albedo(mirror_power(5e5), 0.1) == pytest.approx(0.1, abs=1e-7)
