@@ -134,7 +134,7 @@ class Energy:
         return self._held(result)
 
     def _children(self, parents: Inputs, n: int) -> Inputs:
-        """Parents of which a quarter of the arguments is new, and half of the others moved, by up to a factor of e."""
+        """Parents with a quarter of their arguments new and half of the others moved, by 1 % to a factor of e."""
         rng = self._rng
         one = rng.integers(0, parents[0].shape[1], n)
         reach = 10 ** rng.uniform(-2, 0, n)

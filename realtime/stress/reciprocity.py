@@ -42,7 +42,7 @@ class Reciprocity:
         self._normal = None if brdf.normal is None else place[brdf.normal]
         self._below = None if brdf.below is None else place[brdf.below]
         self._directions = self.arguments[self._light].size == 3
-        self._between = not self._directions and domain_of(self.arguments[self._light]).kind != "cosine"
+        self._by_cosines = domain_of(self.arguments[self._light]).kind == "cosine"
 
     def worst(self, designed: int = 4096, generations: int = 5, children: int = 1024) -> dict[str, Extreme]:
         """The largest violation found, by the "model" and by the "device", within the declared domain.
@@ -51,11 +51,16 @@ class Reciprocity:
             designed: ordinary inputs, and as many with extremes.
             generations: steps of the search for worse ones.
             children: inputs of each step.
+
+        Raises:
+            ValueError: no input of the declared domain is one that the law is defined at.
         """
         found: dict[str, Extreme] = {}
         inputs = joined(self._design.ordinary(designed), self._design.extremes(designed))
         for _ in range(generations + 1):
             sound = self.defined(inputs) & marks_of(self.arguments, inputs).declared
+            if not (sound.any() or found):
+                raise ValueError(f"{self._sides.twin.function}: {self.needs}; no input of its domain has them")
             inputs = [x[:, sound] for x in inputs]
             sides = self._violations(inputs)
             parents = set()
@@ -102,7 +107,7 @@ class Reciprocity:
         """n·v and n·l of unit directions, (n,); without a normal, that of the half vector, which is the best one."""
         view, light = inputs[self._view], inputs[self._light]
         if not self._directions:
-            return (np.ones(view.shape[1]),) * 2 if self._between else (view[0], light[0])
+            return (view[0], light[0]) if self._by_cosines else (np.ones(view.shape[1]), np.ones(view.shape[1]))
         view, light = _unit(view), _unit(light)
         normal = _unit(view + light) if self._normal is None else _unit(inputs[self._normal])
         return np.sum(normal * view, axis=0), np.sum(normal * light, axis=0)

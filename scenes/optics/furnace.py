@@ -30,8 +30,9 @@ class Rule:
 
 
 SEARCH, COARSE, FINE = Rule(0.6, 12), Rule(0.35, 20), Rule(0.2, 48)
-"""`FINE` gives the albedo of GGX at n·v ≥ 10⁻³ to 2·10⁻⁸, of Beckmann's and of cosine lobes to 10⁻⁷, `COARSE` to 10⁻⁸
-and 10⁻⁵. Where a lobe is cut off by less than the horizon (a power of a mirror cosine below 2) to 10⁻⁴ and 3·10⁻⁴."""
+"""`FINE` gives the albedos of GGX and of Beckmann's lobe to 2·10⁻⁸, of a mirror cosine's power from 3 up to 2·10⁻⁶,
+`COARSE` to 10⁻⁸, 10⁻⁵ and 10⁻⁴, `SEARCH` to 4·10⁻³, for α and n·v from 10⁻³; held against twice as fine a rule over a
+wider range. A power below 2 ends with a bend that no node lies at: 3·10⁻³, 2·10⁻² and 3·10⁻²."""
 
 
 def light_from_everywhere(cosine: float, rule: Rule, turn: float | None = None) -> tuple[np.ndarray, np.ndarray]:
