@@ -32,6 +32,7 @@ from lightmeter.realtime.renderer import Renderer
 from lightmeter.scenes.load import load
 from lightmeter.scenes.optics import conductors, fresnel, microfacet
 from lightmeter.scenes.optics.albedo import mean_albedo
+from lightmeter.scenes.optics.furnace import COARSE, light_from_everywhere
 from lightmeter.scenes.optics.microsurface import walk
 
 MODELS: dict[str, tuple[str, dict]] = {
@@ -191,37 +192,22 @@ class Ball:
 
 
 class Furnace:
-    """Light on a point seen from a few angles, over half vectors, for the directional albedo."""
-
-    rings, turns = 96, 64
+    """Light from everywhere on a point seen from a few angles, for the directional albedo."""
 
     def __init__(self, roughness: Sequence[float], cosine: Sequence[float]) -> None:
-        roughness = np.array(roughness)[:, None, None, None]
-        cosine = np.array(cosine)[:, None, None]
-        along, along_weight = gauss(self.rings, 1.0)
-        turn = np.cos((np.arange(self.turns) + 0.5) * np.pi / self.turns)
-        sine = np.sqrt(1 - cosine**2)
-        # n·l = 0 where 2θ_h = 90° + atan(tan θ_v·cos φ).
-        end = np.pi / 4 + np.arctan2(sine * turn, cosine) / 2
-        width = microfacet.alpha_from_roughness(roughness)
-        span = np.arcsinh(end / width)
-        theta = width * np.sinh(along[:, None] * span)
-        solid = width * np.cosh(along[:, None] * span) * span * along_weight[:, None] * np.sin(theta)
-        self.shape = np.broadcast_shapes(theta.shape, roughness.shape)
-        theta, turn, cosine, roughness, solid = (
-            np.broadcast_to(a, self.shape).ravel() for a in (theta, turn, cosine, roughness, solid)
-        )
-        half = np.stack([np.sin(theta) * turn, np.sin(theta) * np.sqrt(1 - turn**2), np.cos(theta)], axis=-1)
-        view = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
-        v_dot_h = np.sum(view * half, axis=-1, keepdims=True)
-        light = 2 * v_dot_h * half - view
-        self.weight = (solid * 4 * v_dot_h[:, 0] * 2 * np.pi / self.turns).reshape(self.shape)
-        up = np.broadcast_to([0.0, 0.0, 1.0], half.shape)
-        self.at = Configurations.of(up, view, light, roughness)
+        lit = [light_from_everywhere(c, COARSE) for c in cosine]
+        light = np.stack([directions.T for directions, _ in lit])
+        view = np.array([[[np.sqrt(1 - c * c), 0.0, c]] for c in cosine])
+        self.weight = np.stack([weight for _, weight in lit])
+        self.shape = len(roughness), *self.weight.shape
+        up = np.array([0.0, 0.0, 1.0])
+        normal, view, light = (np.broadcast_to(d, (*self.shape, 3)).reshape(-1, 3) for d in (up, view, light))
+        rough = np.broadcast_to(np.reshape(roughness, (-1, 1, 1)), self.shape).ravel()
+        self.at = Configurations.of(normal, view, light, rough)
 
     def albedo(self, reflected: np.ndarray) -> np.ndarray:
         """(roughness, cosine)."""
-        return np.sum(reflected.reshape(self.shape) * self.weight, axis=(2, 3))
+        return np.sum(reflected.reshape(self.shape) * self.weight, axis=-1)
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from lightmeter.scenes.optics import (
     sheen,
 )
 
-from .twin import Argument, Twin, direction, logarithmic, uniform
+from .twin import Argument, Brdf, Twin, direction, logarithmic, uniform
 
 CORNERS = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (1.0, 0.0, 0.0))
 
@@ -74,6 +74,10 @@ MATERIAL_AND_DIRECTIONS = (
     towards("l"),
 )
 """What a BRDF takes."""
+REFLECTED = Brdf()
+"""f·(n·l) of n, v and l."""
+MASKING = Brdf("n_dot_v", "n_dot_l", normal=None, cosine=False, whole=False)
+"""A masking V of two cosines."""
 
 
 def half_cosines(n, v, l):  # noqa: E741
@@ -358,6 +362,7 @@ TWINS = (
         roundings=5 + 3 + 1 + 1 + 2.5,
         why="under the root α², 1 − α², two products and a sum; the root (1/inversesqrt: 2 + 1 ulp), the product, the "
         "sum, the division (2.5)",
+        brdf=MASKING,
     ),
     Twin(
         "brdf.glsl",
@@ -413,6 +418,7 @@ TWINS = (
         "(7) with F0 (5); and in the sum 1 − F, c_diff, 1/π, D·V, F·DV, the sum, n·l: six beyond",
         arrange=near_the_mirror,
         signs=brdf_signs,
+        brdf=REFLECTED,
     ),
     Twin(
         "lobes.glsl",
@@ -432,6 +438,7 @@ TWINS = (
         why="as gltf_brdf: the half vector (12), D (16), V (12.5), F (7) with F0 (5), and three products",
         arrange=near_the_mirror,
         signs=brdf_signs,
+        brdf=REFLECTED,
     ),
     Twin(
         "lobes.glsl",
@@ -443,6 +450,7 @@ TWINS = (
         why="v + l, a square (3), a scalar product (3), inversesqrt (2) and the product; F (7) with F0 (5); 1 − F, "
         "c_diff (2), 1/π and two products",
         cancels=1.0,
+        brdf=Brdf(normal=None, cosine=False),
     ),
     Twin(
         "clear_coat.glsl",
@@ -464,6 +472,7 @@ TWINS = (
         why="see COAT_LOBE_ROUNDINGS",
         arrange=above_the_mirror,
         signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
+        brdf=REFLECTED,
     ),
     Twin(
         "clear_coat.glsl",
@@ -483,6 +492,7 @@ TWINS = (
         arrange=above_the_mirror,
         signs=lambda _base, _clearcoat, _roughness, n, v, light: lit_signs(n, v, light),
         cancels=1.0,
+        brdf=Brdf(below="base"),
     ),
     Twin(
         "anisotropy.glsl",
@@ -548,6 +558,7 @@ TWINS = (
         roundings=GRAIN_LOBE_ROUNDINGS,
         why="see GRAIN_LOBE_ROUNDINGS",
         arrange=with_grain,
+        brdf=Brdf(cosine=False, grain="grain"),
     ),
     Twin(
         "anisotropy.glsl",
@@ -618,6 +629,7 @@ TWINS = (
         signs=lambda _roughness, n, v, light: lit_signs(n, v, light),
         cancels=1e-3,
         guards=("1e-6",),
+        brdf=REFLECTED,
     ),
     Twin(
         "sheen.glsl",
@@ -628,6 +640,7 @@ TWINS = (
         roundings=2,
         why="the product and the difference",
         cancels=1.0,
+        brdf=Brdf("albedo_v", "albedo_l", normal=None, cosine=False, whole=False),
     ),
     Twin(
         "lights.glsl",

@@ -47,6 +47,31 @@ class Argument:
 
 
 @dataclass(frozen=True)
+class Brdf:
+    """What makes a function a BRDF, or a factor of one: `lightmeter stress` then holds the laws of reflection of it.
+
+    Cosines of the half vector need no word: n_dot_h, sin2_h, v_dot_h and l_dot_h are known by their names.
+
+    Attributes:
+        view, light: the arguments that change places: directions, or numbers that are the same function of either,
+            as the cosines n_dot_v and n_dot_l are. view is None where the function takes none.
+        normal: the argument that holds the normal; None where it takes none.
+        cosine: whether n·l is in the result.
+        grain: the argument that holds a direction across the normal, along which the lobe is stretched.
+        below: the argument that holds f·(n·l) of what lies below; Lambert's is put there.
+        whole: False for a factor, as masking is: it has no albedo.
+    """
+
+    view: str | None = "v"
+    light: str = "l"
+    normal: str | None = "n"
+    cosine: bool = True
+    grain: str | None = None
+    below: str | None = None
+    whole: bool = True
+
+
+@dataclass(frozen=True)
 class Twin:
     """A GLSL function and the NumPy function that says what it should give.
 
@@ -68,6 +93,7 @@ class Twin:
         guards: numbers in the GLSL whose exact value does not matter.
         defines: what the file is compiled with.
         uniforms: knobs that the function reads, by name.
+        brdf: what makes it a BRDF; None where it is none.
     """
 
     file: str
@@ -83,6 +109,7 @@ class Twin:
     guards: tuple[str, ...] = ()
     defines: Mapping[str, object] = field(default_factory=dict)
     uniforms: Mapping[str, object] = field(default_factory=dict)
+    brdf: Brdf | None = None
 
 
 def uniform(low: float, high: float, components: int = 1) -> Draw:

@@ -8,6 +8,7 @@ from lightmeter.realtime.stress.regimes import REGIMES
 from lightmeter.reports.one_step import write_text
 from lightmeter.reports.page_file import asset, device_rows, script_hash, script_safe, template
 from lightmeter.reports.results_json import to_json
+from lightmeter.reports.stress_laws import MEANING, rows, violations
 from lightmeter.reports.stress_results import StressResults, command, inherent, shown
 from lightmeter.reports.stress_table import safe_domain
 
@@ -30,6 +31,8 @@ def render_stress(results: StressResults) -> str:
         count=len(results.functions),
         seed=results.seed,
         data=script_safe(_model(results)),
+        laws=_laws(results),
+        laws_meaning=MEANING,
     )
 
 
@@ -39,6 +42,18 @@ def _model(results: StressResults) -> dict[str, Any]:
         "regimes": [{"name": r, "meaning": REGIMES[r]} for r in regimes],
         "functions": [_function(f, regimes) for f in results.functions],
     }
+
+
+def _laws(results: StressResults) -> list[dict[str, Any]]:
+    return [
+        {
+            "cells": cells,
+            "one_sided": held.one_sided in ("model", "device"),
+            "gains": bool(held.gains),
+            "violations": violations(name, held),
+        }
+        for cells, (name, held) in zip(rows(results.laws), results.laws.items(), strict=True)
+    ]
 
 
 def _function(function: Stressed, regimes: list[str]) -> dict[str, Any]:

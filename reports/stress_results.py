@@ -1,12 +1,13 @@
 """The results of a stress run, as `stress.json` holds them."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from lightmeter.realtime.stress.findings import Cell, Example, Stressed
+from lightmeter.realtime.stress.laws import Laws
 
-SCHEMA = 1
+SCHEMA = 2
 SHORT = {
     "ordinary": "ord",
     **{f"α ≥ {10.0**-e:g}": f"α-{e}" for e in range(1, 7)},
@@ -42,18 +43,24 @@ class StressResults:
         seed: of designed and searched inputs.
         device: what ran it.
         functions: in the order of their declaration.
+        laws: of those functions that are BRDFs or factors of one, by name.
     """
 
     schema: int
     seed: int
     device: dict[str, Any]
     functions: Sequence[Stressed]
+    laws: Mapping[str, Laws] = field(default_factory=dict)
 
 
 def command(name: str, example: Example) -> str:
     """The command line that evaluates a function at an input again."""
-    words = (f"{argument}={','.join(f'{v:.9g}' for v in values)}" for argument, values in example.inputs.items())
-    return f"lightmeter stress --function '{name}' --input {' '.join(words)}"
+    return f"lightmeter stress --function '{name}' --input {words(example.inputs)}"
+
+
+def words(inputs: Mapping[str, Sequence[float]]) -> str:
+    """An input as the command line takes it, exactly."""
+    return " ".join(f"{argument}={','.join(f'{v:.9g}' for v in values)}" for argument, values in inputs.items())
 
 
 def inherent(cell: Cell) -> bool:

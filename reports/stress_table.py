@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from lightmeter.realtime.stress.findings import FORMATS, Example, Stressed
 from lightmeter.realtime.stress.regimes import REGIMES
-from lightmeter.reports.stress_results import SHORT, StressResults, command, inherent, shown
+from lightmeter.reports.stress_results import SHORT, StressResults, command, inherent, shown, words
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -43,8 +43,7 @@ def input_table(name: str, examples: dict[str, Example]) -> Table:
     from rich.table import Table
 
     example = examples["fp32"]
-    words = " ".join(f"{a}={','.join(f'{v:.9g}' for v in x)}" for a, x in example.inputs.items())
-    table = Table(title=f"{name} at {words}", title_justify="left")
+    table = Table(title=f"{name} at {words(example.inputs)}", title_justify="left")
     for column in ("format", "got", "exact (float64)", "relative error", "digits", "attainable"):
         table.add_column(column)
     for form, found in examples.items():

@@ -23,6 +23,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="evaluate --function at this input: every argument, its components parted by commas",
     )
     parser.add_argument(
+        "--law",
+        choices=("reciprocity", "albedo"),
+        help="hold this law of a BRDF at --input, in place of its digits: reciprocity, or the albedo of a surface, "
+        "whose --input is the function's parameters and n_dot_v (and turn, of a grain)",
+    )
+    parser.add_argument(
         "--scenes",
         nargs="*",
         action="extend",
@@ -42,6 +48,8 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"--seed: expected 0 to {(1 << 32) - 1}, got {args.seed}")
     if args.input and not args.function:
         raise UsageError("--input: name the function with --function")
+    if args.law and not args.input:
+        raise UsageError("--law: say where to hold it, with --function and --input")
     if args.scenes is not None:
         if args.effects or args.function:
             raise UsageError("--scenes: it takes the place of effects and functions; leave them out")
@@ -61,13 +69,14 @@ def run(args: argparse.Namespace) -> int:
                 f"--input: several functions are called {args.function!r}: name one of "
                 f"{', '.join(subject.name for subject in chosen)}"
             )
-        return _at_input(chosen[0], args)
+        return _law_at_input(chosen[0], args) if args.law else _at_input(chosen[0], args)
     return _all(chosen, args)
 
 
 def _all(chosen: list, args: argparse.Namespace) -> int:
     from lightmeter.device import fingerprint
     from lightmeter.realtime.device import Device
+    from lightmeter.realtime.stress.laws import hold_laws
     from lightmeter.realtime.stress.search import Stress
     from lightmeter.reports.results_json import to_json
     from lightmeter.reports.stress_page import write_stress
@@ -75,23 +84,31 @@ def _all(chosen: list, args: argparse.Namespace) -> int:
 
     folder = options.output_folder(args.output or "lightmeter-out/stress")
     device = Device()
-    functions = []
+    functions, laws = [], {}
     with progress_bar() as report:
         for done, subject in enumerate(chosen):
             report("functions", done, len(chosen))
             functions.append(Stress(device, subject.name, subject.twin, subject.folder, args.seed).run())
-    results = StressResults(SCHEMA, args.seed, fingerprint(device.renderer, device.version), functions)
+            if held := hold_laws(device, subject, args.seed):
+                laws[subject.name] = held
+    results = StressResults(SCHEMA, args.seed, fingerprint(device.renderer, device.version), functions, laws)
     page = write_stress(folder, results)
     if args.json:
         sys.stdout.write(to_json(results))
         print(f"report: {page}", file=sys.stderr)
         return 0
+    from lightmeter.reports.stress_laws import law_table, violations
     from lightmeter.reports.stress_table import fault_lines, stress_tables
     from lightmeter.terminal import console
 
     console().print(stress_tables(results))
+    if laws:
+        console().print(law_table(laws))
     for line in fault_lines(results):  # whole, so that the command can be copied
         print(line)
+    for name, held in laws.items():
+        for found in violations(name, held):
+            print(f"✕ {found.function}, {found.what}: {found.command}")
     print(f"report: {page}")
     return 0
 
@@ -151,4 +168,27 @@ def _at_input(subject, args: argparse.Namespace) -> int:
     from lightmeter.terminal import console
 
     console().print(input_table(subject.name, examples))
+    return 0
+
+
+def _law_at_input(subject, args: argparse.Namespace) -> int:
+    from lightmeter.realtime.device import Device
+    from lightmeter.realtime.stress.laws import ALBEDO, law
+    from lightmeter.reports.results_json import to_json
+    from lightmeter.reports.stress_laws import at_input
+    from lightmeter.stress_input import parse
+
+    brdf = subject.twin.brdf
+    if brdf is None or (args.law == ALBEDO and not brdf.whole):
+        what = "is no BRDF" if brdf is None else "is a factor of a BRDF, which has no albedo"
+        raise UsageError(f"--law {args.law}: {subject.name} {what}, as its twin in {subject.twin.file} declares it")
+    held = law(args.law, Device(), subject, args.seed)
+    inputs = parse(args.input, held.arguments)
+    if not held.defined(inputs).all():
+        raise UsageError(f"--law {args.law}: {held.needs}")
+    extreme = held.at(inputs)
+    if args.json:
+        sys.stdout.write(to_json(extreme))
+    else:
+        print(at_input(args.law, extreme))
     return 0

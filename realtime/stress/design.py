@@ -129,6 +129,11 @@ class Design:
         return held
 
 
+def joined(first: Inputs, second: Inputs) -> Inputs:
+    """The lanes of both."""
+    return [np.concatenate(pair, axis=1) for pair in zip(first, second, strict=True)]
+
+
 def _unit(v: np.ndarray) -> np.ndarray:
     return v / np.maximum(np.linalg.norm(v, axis=0), 1e-300)
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..device import Device
 from ..glsl_on_device import FunctionOnDevice
 from ..twin import Twin
-from .design import Design, Inputs
+from .design import Design, Inputs, joined
 from .findings import FAULTS, FORMATS, Cell, Example, Stressed
 from .half_floats import FunctionInHalfFloats
 from .judging import EPS, HALF_NORMAL, HALF_STEP, SMALLEST, Verdict, attainable, exact_results, judge, judged_slots
@@ -70,16 +70,16 @@ class Stress:
         usual = self.design.ordinary(designed // 3)
         found = exact_results(self.twin, usual)
         self._signed = {slot for slot in judged_slots(self.twin) if (found[slot] < 0).any()}
-        inputs = _joined(usual, self.design.extremes(designed))
+        inputs = joined(usual, self.design.extremes(designed))
         exact = exact_results(self.twin, inputs)
         self._take("fp32", inputs, exact)
         for _ in range(generations):
             fresh = self.design.extremes(children // 4)
             assert self._elite is not None
             bred = self.design.children(self._elite, children - children // 4)
-            self._take("fp32", _joined(fresh, bred))
+            self._take("fp32", joined(fresh, bred))
         assert self._elite is not None
-        inputs = _joined(inputs, self._elite)
+        inputs = joined(inputs, self._elite)
         exact = exact_results(self.twin, inputs)
         for name in [*FORMATS][1:]:
             if name != "r11g11b10f" or (self.twin.result == "vec3" and not self._signed and len(exact) == 1):
@@ -143,7 +143,7 @@ class Stress:
             lanes = np.flatnonzero(mask)
             chosen |= set(lanes[np.argsort(-worth[lanes])[:8]].tolist())
         best = [x[:, sorted(chosen)] for x in pool]
-        self._elite = best if self._elite is None else _joined([x[:, -512:] for x in self._elite], best)
+        self._elite = best if self._elite is None else joined([x[:, -512:] for x in self._elite], best)
 
     def _bound(self, inputs: Inputs, got, exact, verdict: Verdict, marks: Marks) -> None:
         """The largest errors of the declared domain, and what α and cosine keep 1 %."""
@@ -193,7 +193,3 @@ class Stress:
         lanes = [np.array([e.inputs[a.name] for e in examples]).T for a in self.design.arguments]
         change = attainable(self.twin, lanes, step)
         return [replace(e, attainable=digits(float(c))) for e, c in zip(examples, change, strict=True)]
-
-
-def _joined(first: Inputs, second: Inputs) -> Inputs:
-    return [np.concatenate(pair, axis=1) for pair in zip(first, second, strict=True)]

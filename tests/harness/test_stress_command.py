@@ -37,6 +37,36 @@ def test_one_input(run):
     assert found.code == 0 and "fp16" in found.out and "exact (float64)" in found.out
 
 
+def test_laws_of_a_brdf(run, tmp_path):
+    found = run("stress", "--function", "phong/phong#2", "-o", "out")
+    assert "Laws of reflection" in found.out and "not reciprocal, by its definition" in found.out
+    held = json.loads((tmp_path / "out/stress.json").read_text())["laws"]["phong/phong#2"]
+    for line in (line for line in found.out.splitlines() if "--law" in line):
+        words = shlex.split(line.partition(": lightmeter ")[2])
+        law = words[words.index("--law") + 1]
+        again = run(*words, "--json").json
+        kept = held["albedo"] if law == "albedo" else held["reciprocity"]["model"]
+        assert {**again, "inputs": None} == {**kept, "inputs": None}
+    page = (tmp_path / "out/stress.html").read_text()
+    assert page.count("--law") == 2
+    assert "Laws of reflection" not in run("stress", "--function", "d_ggx", "-o", "other").out
+
+
+def test_a_law_at_one_input(run, refused):
+    white = ["base_color=1,1,1", "metallic=1", "roughness=1", "specular=1"]
+    found = run("stress", "--function", "gltf_brdf", "--law", "albedo", "--input", *white, "n_dot_v=1")
+    assert found.code == 0 and "0.30685" in found.out  # 1 − ln 2
+    of = ("stress", "--law", "albedo", "--function")
+    assert "0.001 to 1" in refused(*of, "gltf_brdf", "--input", *white, "n_dot_v=0")
+    assert "no n_dot_v" in refused(*of, "gltf_brdf", "--input", *white)
+    assert "is no BRDF" in refused(*of, "d_ggx", "--input", "alpha=1")
+    assert "has no albedo" in refused(*of, "v_schlick", "--input", "k=1")
+    assert "with --function and --input" in refused(*of, "gltf_brdf")
+    along = ("n=0,0,1", "v=1,0,0", "l=0,0,1")
+    said = refused("stress", "--law", "reciprocity", "--function", "gltf_brdf", "--input", *white, *along)
+    assert "at least 0.001 to the normal" in said
+
+
 def test_what_is_wrong_is_said(refused):
     assert "did you mean 'cook_torrance'" in refused("stress", "cook_torance")
     assert "nothing to stress" in refused("stress", "supersampling")
@@ -69,12 +99,29 @@ def test_the_gate_holds_limits_on_it(run, tmp_path):
     assert run(*words, "--json").json["fp16"]["digits"] < 3
 
 
+def test_the_gate_holds_laws(run, tmp_path):
+    (tmp_path / "lightmeter.toml").write_text(
+        '[[stress]]\nfunction = "lambert"\nmetric = "albedo"\nmax = 1\n'
+        '[[stress]]\nfunction = "lambert"\nmetric = "reciprocity"\nmax = 0.01\n'
+        '[[stress]]\nfunction = "phong/phong#2"\nmetric = "albedo"\nmax = 1.5\n'
+    )
+    found = run("gate", "--json")
+    assert found.code == 1
+    assert [v["status"] for v in found.json["verdicts"]] == ["PASS", "PASS", "FAIL"]
+    words = shlex.split(re.search(r"`lightmeter (.*)`", found.json["verdicts"][2]["message"])[1])
+    assert run(*words, "--json").json["device"] > 1.5
+
+
 def test_stress_limits_that_make_no_sense(refused, tmp_path):
     def said(text: str) -> str:
         (tmp_path / "lightmeter.toml").write_text(f"[[stress]]\n{text}\n")
         return refused("gate")
 
     assert 'metric = "digits" with min' in said('metric = "digits"\nmax = 1')
+    assert "whole number" in said('metric = "faults"\nmax = 0.5')
+    assert "leave out alpha" in said('metric = "albedo"\nmax = 1\nalpha = 0.1')
+    assert "another metric with max" in said('metric = "albedo"\nmin = 1')
+    assert "reaches no function that is a BRDF" in said('metric = "albedo"\nmax = 1\nfunction = "d_ggx"')
     assert "not on several" in said('metric = "faults"\nmax = 0\neffect = "lambert"\nfunction = "lambert"')
     assert "did you mean 'grazing'" in said('metric = "faults"\nmax = 0\nregime = "grasing"\nfunction = "lambert"')
     assert "reaches no input" in said('metric = "digits"\nmin = 1\nalpha = 0.1\nfunction = "lambert"')

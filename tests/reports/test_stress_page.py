@@ -2,7 +2,10 @@
 
 import pytest
 
+from lightmeter.realtime.stress.both_sides import Extreme
 from lightmeter.realtime.stress.findings import Cell, Example, Stressed
+from lightmeter.realtime.stress.laws import Laws
+from lightmeter.reports.stress_laws import rows, violations
 from lightmeter.reports.stress_page import write_stress
 from lightmeter.reports.stress_results import StressResults, command, inherent, shown
 from lightmeter.reports.stress_table import fault_lines, safe_domain
@@ -23,7 +26,20 @@ def results() -> StressResults:
         "fp16": {"ordinary": Cell(9, worst=ILL)},
     }
     function = Stressed("shared/<b>d_ggx</b></script>", "brdf.glsl", cells, {"α": 2e-3, "cosine": None}, {})
-    return StressResults(1, 0, {"gl_renderer": "<i>"}, [function])
+    return StressResults(1, 0, {"gl_renderer": "<i>"}, [function], {function.name: broken(), "shared/sound": sound()})
+
+
+def sound() -> Laws:
+    least = Extreme({"n_dot_v": [0.5], "n_dot_l": [0.25]}, 1e-12, 0.03, 0.031)
+    return Laws({"model": least, "device": least}, None)
+
+
+def broken() -> Laws:
+    furthest = Extreme({"n": [0.0, 0.0, 1.0]}, 0.4, 0.4, 0.41)
+    return Laws(
+        {"model": furthest, "device": furthest},
+        Extreme({"rho": [1.0, 1.0, 1.0], "n_dot_v": [0.1]}, 1.3, 1.3, 1.2, 1e-3),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +67,32 @@ def test_a_cell_opens_its_worst_input_and_the_command(page: Page) -> None:
     page.evaluate("document.querySelector('input[value=fp32]').click()")
     assert page.problems == []
     assert [url for url in page.requests if not url.startswith(("file:", "data:", "about:"))] == []
+
+
+@needs_chromium
+def test_laws_stand_beside_the_grid(page: Page) -> None:
+    table = "document.querySelector('#laws table')"
+    assert page.evaluate(f"[...{table}.querySelectorAll('tbody tr:first-child .broken')].map(c => c.textContent)") == [
+        "0.400",
+        "0.410",
+        "1.30000",
+        "1.20000",
+    ]
+    assert page.evaluate(f"{table}.querySelectorAll('.violation').length") == 2
+    assert page.evaluate(f"{table}.querySelector('code').checkVisibility()") is False
+    click(page, "#laws summary")
+    assert page.evaluate(f"{table}.querySelector('code').checkVisibility()") is True
+    assert page.evaluate(f"{table}.querySelector('code').textContent").endswith("--law reciprocity --input n=0,0,1")
+    assert page.problems == []
+
+
+def test_laws_in_words():
+    of_sound, of_broken = rows({"a": sound()})[0], rows({"b": broken()})[0]
+    assert of_sound == ["a", "0", "~0.031", "", "", "", ""]
+    assert of_broken[-1] == "rho=1 n_dot_v=0.1" and of_broken[3:5] == ["1.30000", "1e-03"]
+    assert violations("a", sound()) == []  # the inputs' own rounding
+    one_sided, gains = violations("b", broken())
+    assert "by its definition: off by 0.400" in one_sided.what and "albedo 1.3 ± 1e-03" in gains.what
 
 
 def test_a_loss_is_the_inputs_own_where_no_more_is_attainable():

@@ -7,7 +7,7 @@ import numpy as np
 from lightmeter.scenes.optics import microfacet
 
 from ...effect import Knobs
-from ...shared_twins import MATERIAL_AND_DIRECTIONS, brdf_signs, near_the_mirror, point
+from ...shared_twins import MATERIAL_AND_DIRECTIONS, REFLECTED, brdf_signs, near_the_mirror, point
 from ...twin import Argument, Twin, logarithmic
 from . import EFFECT, defines
 
@@ -59,6 +59,7 @@ def twin_under(**given) -> Twin:
         arrange=near_the_mirror,
         signs=brdf_signs,
         defines=defines(knobs),
+        brdf=REFLECTED,
     )
 
 

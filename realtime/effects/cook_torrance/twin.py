@@ -11,7 +11,9 @@ from lightmeter.scenes.optics.conductors import rgb_index
 from ...effect import Knobs
 from ...shared_twins import (
     GRAIN_LOBE_ROUNDINGS,
+    MASKING,
     MATERIAL_AND_DIRECTIONS,
+    REFLECTED,
     across_normal,
     alpha,
     any_point,
@@ -24,7 +26,7 @@ from ...shared_twins import (
     unit,
     unit_length,
 )
-from ...twin import Argument, Twin, logarithmic, uniform
+from ...twin import Argument, Brdf, Twin, logarithmic, uniform
 from . import DISTRIBUTIONS, EFFECT, MASKINGS, defines, measured_metal
 from .albedo import albedo_table
 
@@ -177,6 +179,7 @@ def whole(roundings: float, **given) -> Twin:
         cancels=1.0 if knobs["fresnel"] in ("dielectric", "conductor") else 0.0,
         defines=defines(knobs),
         uniforms=values,
+        brdf=REFLECTED,
     )
 
 
@@ -203,7 +206,7 @@ def within_the_lobe(rng: np.random.Generator, inputs: list[np.ndarray]) -> list[
 def masking(name: str, roundings: float, why: str, scale: str = "alpha") -> Twin:
     """The twin of a masking."""
     arguments = cosine("n_dot_v"), cosine("n_dot_l"), alpha(scale)
-    return Twin("microfacets.glsl", name, "float", arguments, getattr(microfacet, name), roundings, why)
+    return Twin("microfacets.glsl", name, "float", arguments, getattr(microfacet, name), roundings, why, brdf=MASKING)
 
 
 TWINS = (
@@ -243,6 +246,7 @@ TWINS = (
         microfacet.v_implicit,
         roundings=0,
         why="nothing is computed",
+        brdf=MASKING,
     ),
     Twin(
         "fresnel.glsl",
@@ -362,6 +366,7 @@ TWINS = (
         why="F̄ (1 + 3), squared, 1 − Ē, 1 − F̄(1 − Ē), the division; the others' products and division",
         cancels=1.0,
         guards=("1e-6",),
+        brdf=Brdf("albedo_v", "albedo_l", normal=None, cosine=False, whole=False),
     ),
     Twin(
         "cook_torrance.glsl",
@@ -378,6 +383,7 @@ TWINS = (
         roundings=7 + 5 + 6,
         why="F (7) with F0 (5); 1 − F, c_diff, 1/π, its product with D·V, the sum, n·l",
         defines=defines(EFFECT.settings({})),
+        brdf=Brdf("n_dot_v", "n_dot_l", normal=None, whole=False),
     ),
     Twin(
         "cook_torrance.glsl",
@@ -390,6 +396,7 @@ TWINS = (
         arrange=with_grain,
         signs=lambda *inputs: brdf_signs(*inputs[:4], *inputs[6:]),
         defines=defines(EFFECT.settings({})) | {"LAYER_GRAIN": True},
+        brdf=Brdf(grain="grain"),
     ),
     whole(0),
     whole(15, distribution="blinn", masking="implicit", fresnel="none"),

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...effect import Knobs
 from ...shared_twins import color, towards
-from ...twin import Twin
+from ...twin import Brdf, Twin
 
 
 def lambert(base_color: np.ndarray, n: np.ndarray, l: np.ndarray) -> np.ndarray:  # noqa: E741 (l: light)
@@ -28,5 +28,6 @@ TWINS = (
         lambert,
         roundings=1 + 1 + 3 + 1,
         why="1/π and its product; the scalar product (3) and its own",
+        brdf=Brdf(view=None),
     ),
 )

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...effect import Knobs
-from ...shared_twins import above, color, towards
+from ...shared_twins import REFLECTED, above, color, towards
 from ...twin import Argument, Twin, uniform
 
 
@@ -39,5 +39,6 @@ TWINS = (
         why="1/π and two products; n·v, n·l (3) and theirs (1); pow is exp2(y·log2 x): log2 of a product of cosines is "
         "up to 46 in size, of 3 ulp each, exp2 3 ulp and the size of its argument in the derivatives; two products",
         arrange=above,
+        brdf=REFLECTED,
     ),
 )

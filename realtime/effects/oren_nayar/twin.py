@@ -8,7 +8,7 @@ import numpy as np
 from lightmeter.scenes.optics import oren_nayar as optics
 
 from ...effect import Knobs
-from ...shared_twins import above, color, cosine, towards, unit
+from ...shared_twins import REFLECTED, above, color, cosine, towards, unit
 from ...twin import Argument, Twin, uniform
 
 FORMS = {
@@ -50,6 +50,7 @@ def form(name: str, roundings: float, why: str, cancels: float = 0.0) -> Twin:
         arrange=above,
         cancels=cancels,
         defines=FORM,
+        brdf=REFLECTED,
     )
 
 

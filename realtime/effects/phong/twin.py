@@ -7,7 +7,7 @@ import numpy as np
 from lightmeter.scenes.optics import microfacet
 
 from ...effect import Knobs
-from ...shared_twins import MATERIAL_AND_DIRECTIONS, lit_signs, near_the_mirror, point
+from ...shared_twins import MATERIAL_AND_DIRECTIONS, REFLECTED, lit_signs, near_the_mirror, point
 from ...twin import Argument, Twin, logarithmic
 from . import EFFECT, defines
 
@@ -63,6 +63,7 @@ def twin_under(**given) -> Twin:
         arrange=near_the_mirror,
         signs=signs,
         defines=defines(knobs),
+        brdf=REFLECTED,
     )
 
 
