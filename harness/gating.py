@@ -18,7 +18,7 @@ from lightmeter.metrics.registry import find_metric
 from lightmeter.metrics.sequential import LEAST_COUNT, Bound, Look, error_per_look, look
 from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
-from lightmeter.realtime.display import DISPLAY_TERMS
+from lightmeter.realtime.graph import DISPLAY_TERMS
 from lightmeter.reports.verdict import Verdict
 from lightmeter.sides import Sides
 from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject

@@ -22,6 +22,7 @@ NAMES = (
     "corner",
     "grid-sun",
     "lattice",
+    "lamps",
     "layers",
     "material-layers",
     "metal-rough-grid",
