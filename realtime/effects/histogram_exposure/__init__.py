@@ -11,8 +11,8 @@ EFFECT = Effect(
     rank=-1,
     knobs=(
         Knob("bins", 64, "How many there are.", low=2, high=1024, sweep=(8, 16, 32, 64, 128, 256)),
-        Knob("low", -12.0, "Where the first bin begins; darker pixels are in it.", unit="stops", low=-64.0, high=63.0),
-        Knob("high", 12.0, "Where the last bin ends; brighter pixels are in it.", unit="stops", low=-63.0, high=64.0),
+        Knob("low", -14.0, "Where the first bin begins; darker pixels are in it.", unit="stops", low=-64.0, high=63.0),
+        Knob("high", 10.0, "Where the last bin ends; brighter pixels are in it.", unit="stops", low=-63.0, high=64.0),
         Knob(
             "stride",
             2,
