@@ -6,6 +6,7 @@ import numpy as np
 
 from lightmeter.realtime.display import POINTWISE, twin_of
 from lightmeter.realtime.graph import DISPLAY_TERMS, Plan, Step
+from lightmeter.realtime.pictures.codes import written
 
 
 def display_steps(plan: Plan) -> list[Step]:
@@ -57,6 +58,8 @@ class Chained:
         if not exact and term == "exposure":
             assert camera.metering is not None
             return image * camera.exposure_scale(twin_of(effect.name, term)(image, knobs, camera.metering))
+        if not exact and term == "encode":
+            return written(twin_of(effect.name, term)(image, knobs), knobs)
         if not exact:
             return twin_of(effect.name, term)(image, knobs)
         if term == "glare":

@@ -75,7 +75,8 @@ class PointwisePass:
     """
 
     def __init__(self, device: Device, effect: Effect, knobs: Knobs, term: str, is_metered: bool) -> None:
-        fragment = source("display.frag", {"FUNCTION": term, "METERED": is_metered}).text
+        defines = {"FUNCTION": term, "METERED": is_metered, **effect.defines(knobs)}
+        fragment = source("display.frag", defines).text
         body = source(f"{effect.name}.glsl", folder=effect.folder).text.removeprefix("#version 410\n")
         self._pass = FullscreenPass(device, Source(fragment.replace("EFFECT", body)), dict(knobs))
 

@@ -10,6 +10,7 @@ from lightmeter.display_chain import Chained
 from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.display import display_transform, twin_of
 from lightmeter.realtime.graph import DISPLAY_TERMS, Choice, compile_plan
+from lightmeter.realtime.pictures.codes import written
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.scenes.load import load
 from lightmeter.scenes.metering import Metering
@@ -110,6 +111,34 @@ def test_a_frame_s_display_is_the_chain_of_its_radiance(device):
     unmetered = replace(plan.scene.camera, metering=None, aperture=None)
     other = compile_plan(replace(plan.scene, camera=unmetered), effects())
     assert np.abs(frame.display - display_transform(other)(frame.radiance) * 255).max() > 20
+
+
+@pytest.mark.parametrize("dither", ["none", "ordered", "noise"])
+def test_dithered_codes_are_the_twin_s(device, dither):
+    """A code within float32's rounding of its threshold may be either: pow's 1e-5 of 255 codes, on both sides."""
+    plan = compile_plan(load("posts"), effects(), Choice(settings={"srgb": {"dither": dither}}))
+    frame = Renderer(device, plan, (64, 48)).render()
+    codes = Chained(plan, frame.radiance.astype(np.float64)).whole(()) * 255
+    assert (np.abs(codes - np.rint(codes)) < 1e-4).all()
+    off = np.abs(frame.display - codes) > 0.5
+    assert off.mean() <= 2 * 255e-5
+
+
+def test_dither_keeps_the_mean_that_rounding_loses():
+    """A grey of 100.3 codes: rounding is 0.3 off everywhere, 64 thresholds leave 1/128 at most."""
+    grey = np.full((64, 64, 3), 100.3 / 255)
+    for name, allowed in (("none", 0.3 + 1e-9), ("ordered", 1 / 128 + 1e-9), ("noise", 0.02)):
+        found = written(grey, {"dither": name}) * 255
+        assert abs(found.mean() - 100.3) <= allowed
+        assert set(np.unique(np.rint(found))) == ({100} if name == "none" else {100, 101})
+
+
+def test_reinhard_s_white_point_is_white():
+    for on in ("luminance", "channels"):
+        knobs = effect("reinhard").settings({"white": 3.0, "on": on})
+        np.testing.assert_allclose(twin_of("reinhard", "tone")(np.full((1, 1, 3), 3.0), knobs), 1.0)
+    ratio = twin_of("reinhard", "tone")(np.array([[[0.4, 0.2, 0.1]]]), effect("reinhard").settings({}))[0, 0]
+    np.testing.assert_allclose(ratio / ratio[2], [4, 2, 1])
 
 
 def test_order_and_need():
