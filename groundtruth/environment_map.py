@@ -12,9 +12,7 @@ import numpy as np
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.scenes.model import Environment
 from lightmeter.scenes.optics import environment as optics
-
-LUMINANCE = (0.2126, 0.7152, 0.0722)
-"""Rec. 709: the share of each primary in the luminance."""
+from lightmeter.scenes.optics.color import LUMINANCE
 
 
 class MapEmitter(mi.Emitter):

@@ -69,7 +69,7 @@ class Case:
     @cached_property
     def display(self) -> Callable[[np.ndarray], np.ndarray]:
         """The frame's display transform."""
-        return display_transform(self.plan)
+        return display_transform(self.plan, self.frame.radiance if self.scene.camera.metering else None)
 
     def judged(self, candidate: str) -> Judged:
         """A candidate's frame, obtained and registered once.

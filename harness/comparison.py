@@ -125,12 +125,12 @@ def compare(
         UsageError: no candidate gave a frame, or one does not fit the scene.
     """
     plan = compile_plan(scene, effects(), choice)
-    display = display_transform(plan)
-    # Before the truth, which may take long: a command that fails is told at once.
-    gathered = gather(candidates, scene, size, display, candidates_folder, report) if candidates else Gathered()
     device = Device()
     renderer = Renderer(device, plan, size)
     frame = renderer.render()
+    display = display_transform(plan, frame.radiance)
+    # Before the truth, which may take long: a command that fails is told at once.
+    gathered = gather(candidates, scene, size, display, candidates_folder, report) if candidates else Gathered()
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)

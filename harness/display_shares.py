@@ -1,18 +1,17 @@
 """How much of the display image's error each display effect causes, on the exact image.
 
-The players are the effects for tone and encode; their errors are in code values 0…1, against the exact chain.
+The players are the effects of the display chain; their errors are in code values 0…1, against the exact chain.
 """
 
 from collections.abc import Callable
 
 import numpy as np
 
+from lightmeter.display_chain import Chained, display_steps
 from lightmeter.game import Game
-from lightmeter.groundtruth.oracles import encode, tone
 from lightmeter.metrics.flip import ldr_flip
 from lightmeter.metrics.shapley import every_order
 from lightmeter.noisy_errors import NoisyErrors, batch_groups
-from lightmeter.realtime.display import DISPLAY_TERMS, twin
 from lightmeter.realtime.graph import Plan
 from lightmeter.reports import results as outcome
 from lightmeter.reports.results import Attribution
@@ -29,15 +28,15 @@ def attribute_display(plan: Plan, reference: np.ndarray) -> Attribution | None:
     Args:
         reference: (K, H, W, 3) batches, K ≥ 8.
     """
-    names = {name: term for term in DISPLAY_TERMS if (name := plan.effect_of(term))}
+    names = {step.effect: step.writes[0] for step in display_steps(plan)}
     if not names:
         return None
     game = Game(tuple(names), every_order(len(names)), None, reference)
     groups = batch_groups(len(reference))
     values = {metric: np.zeros((len(groups), len(game.orders.sets))) for metric in METRICS}
     for level, group in enumerate(groups):
-        image = reference[group].mean(axis=0, dtype=np.float64) * 2.0**plan.scene.camera.exposure
-        shown = [_displayed(plan, image, game.exact(int(players))) for players in game.orders.sets]
+        chain = Chained(plan, reference[group].mean(axis=0, dtype=np.float64))
+        shown = [chain.whole(game.exact(int(players))) for players in game.orders.sets]
         for place, tested in enumerate(shown):
             if not np.array_equal(tested, shown[-1]):  # an exact effect gives the same picture
                 for metric, error in METRICS.items():
@@ -59,14 +58,3 @@ def attribute_display(plan: Plan, reference: np.ndarray) -> Attribution | None:
         subsets=len(game.orders.sets),
         exhaustive=True,
     )
-
-
-def _displayed(plan: Plan, image: np.ndarray, exact: tuple[str, ...]) -> np.ndarray:
-    """(H, W, 3) float32 code values of an exposed image with these effects exact. A term without effect is left out."""
-    for term, oracle in (("tone", tone), ("encode", encode)):
-        name = plan.effect_of(term)
-        if name in exact:
-            image = oracle.evaluate(image.astype(np.float32))
-        elif name:
-            image = twin(plan, term)(image, plan.effects[name][1])
-    return np.clip(image, 0.0, 1.0).astype(np.float32)

@@ -14,7 +14,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.sequential import LEAST_COUNT, Bound, look
 from lightmeter.planning import this_device
 from lightmeter.progress import Report, silent
-from lightmeter.realtime.display import DISPLAY_TERMS
+from lightmeter.realtime.graph import DISPLAY_TERMS
 from lightmeter.reports.verdict import Status, Verdict
 from lightmeter.subjects import EffectSubject, FrameSubject, ImageSubject, Subject, TimeSubject
 from lightmeter.trials import Trial

@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter.comparison import Outcome
+from lightmeter.display_chain import Chained, display_steps
 from lightmeter.measuring import Display, clipped
 from lightmeter.metrics.flip import ldr_flip
+from lightmeter.realtime.display import POINTWISE
 from lightmeter.report_folder import write_folder
 from lightmeter.reports.display_curve import DisplayCurve
 from lightmeter.reports.pictures import ErrorMap, Pair, flip_error, rms_error, share_map, signed_error
@@ -27,7 +29,7 @@ def write_outcome(folder: Path, outcome: Outcome) -> Path:
 def pictures(outcome: Outcome) -> list[Pair]:
     """The frame against the reference, then every effect against its oracle."""
     whole = Sides([outcome.frame.radiance], outcome.reference)
-    pairs = [_pair("frame", (), whole, outcome, "The whole frame.", "Frame")]
+    pairs = [_pair("frame", (), whole, outcome, "The whole frame.", "Frame"), *_screen(outcome)]
     for name, sides in outcome.sides.items():
         effect = outcome.plan.effects[name][0]
         pairs.append(_pair(name, effect.terms, sides, outcome, effect.summary))
@@ -38,6 +40,20 @@ def pictures(outcome: Outcome) -> list[Pair]:
         pair = _pair(one.name, one.terms, one.sides, outcome, one.caption, display=one.display)
         pairs.append(replace(pair, mask=one.mask, labels=(one.engine, "truth")))
     return pairs
+
+
+def _screen(outcome: Outcome) -> list[Pair]:
+    """What the screen shows, where that is more than the frame seen through a curve: with glare, metered."""
+    spatial = [step for step in display_steps(outcome.plan) if step.writes[0] not in POINTWISE]
+    shown = outcome.frame.display
+    if not spatial or shown is None:
+        return []
+    chain = Chained(outcome.plan, np.mean(outcome.reference, axis=0, dtype=np.float64))
+    exact = chain.whole({step.effect for step in display_steps(outcome.plan)})
+    sides = Sides([(shown / 255).astype(np.float32)], [exact], "display")
+    return [
+        _pair("screen", (), sides, outcome, "What the screen shows: the whole display chain on both sides.", "Screen")
+    ]
 
 
 def _share_maps(outcome: Outcome, player: str) -> tuple[ErrorMap, ...]:

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from lightmeter.display_chain import Chained, display_steps
 from lightmeter.exact_batch import ExactBatch
 from lightmeter.progress import Report
-from lightmeter.realtime.display import DISPLAY_TERMS, twin
-from lightmeter.realtime.graph import Plan, Step
+from lightmeter.realtime.graph import DISPLAY_TERMS, Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
@@ -16,6 +16,9 @@ from lightmeter.stacking import mean_samples
 from lightmeter.substitution import exact_ratios, slot_image, slots
 from lightmeter.truth import Truth
 from lightmeter.variants import Seen, Variants
+
+SPACES = {"glare": "scene-linear", "exposure": "scene-linear", "tone": "display-linear", "encode": "display"}
+"""What the two sides of a display effect are."""
 
 MOST_SAMPLES = 16
 """Sub-pixel samples at which terms are exact, at most; a frame with more is judged at some of them."""
@@ -222,16 +225,20 @@ def contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBat
 
 
 def display_sides(plan: Plan, reference: list[np.ndarray]) -> dict[str, Sides]:
-    """Tone and encode against their own oracles, on the reference's mean image."""
-    from lightmeter.groundtruth.oracles import encode, tone
+    """The display effects against their own oracles, on the reference's mean image.
 
-    image = np.mean(reference, axis=0, dtype=np.float64) * 2.0**plan.scene.camera.exposure
-    found = {}
-    shown = np.clip(image, 0.0, 1.0)
-    if name := plan.effect_of("tone"):
-        shown = twin(plan, "tone")(image, plan.effects[name][1])
-        found[name] = Sides([shown.astype(np.float32)], [tone.evaluate(image.astype(np.float32))], "display-linear")
-    if name := plan.effect_of("encode"):
-        encoded = twin(plan, "encode")(shown, plan.effects[name][1])
-        found[name] = Sides([encoded.astype(np.float32)], [encode.evaluate(shown).astype(np.float32)], "display")
+    What comes before is exact, but that an encoding is given what the frame's tone curve gives. An exposure is shown as
+    the image that is too bright by as much as it is.
+    """
+    chain = Chained(plan, np.mean(reference, axis=0, dtype=np.float64))
+    steps, camera, found = display_steps(plan), plan.scene.camera, {}
+    for place, step in enumerate(steps):
+        (term,) = step.writes
+        exact = {earlier.effect for earlier in steps[:place] if earlier.writes != ("tone",)}
+        tested, truth = chain.after(step, exact), chain.after(step, exact | {step.effect})
+        if term == "exposure":
+            assert camera.metering is not None
+            truth = chain.before(step, exact)
+            tested = tested / camera.exposure_scale(camera.metering.average(truth))
+        found[step.effect] = Sides([tested.astype(np.float32)], [truth.astype(np.float32)], SPACES[term])
     return found

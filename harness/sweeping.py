@@ -15,8 +15,8 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effect, effects
-from lightmeter.realtime.display import DISPLAY_TERMS, display_transform
-from lightmeter.realtime.graph import Choice, Plan, compile_plan
+from lightmeter.realtime.display import display_transform
+from lightmeter.realtime.graph import DISPLAY_TERMS, Choice, Plan, compile_plan
 from lightmeter.realtime.renderer import Renderer
 from lightmeter.realtime.timing import Recording, Time, Times, summarise
 from lightmeter.reports import results as outcome
@@ -67,7 +67,9 @@ class Sweeping:
         self._device = Device()
         self._plan = compile_plan(truth.scene, effects(), choice)
         # The sweep's one display transform, so that settings and path tracer are seen through the same.
-        self._display = display_transform(self._plan)
+        metered = truth.scene.camera.metering is not None
+        frame = self._renderer(self._plan).render().radiance if metered else None
+        self._display = display_transform(self._plan, frame)
         self._wanted = [(name, visit) for name, listed in wanted.items() for visit in listed]
         self._measured: dict[str, list[Measured]] = {name: [] for name in wanted}
         self._curve: list[found.CurvePoint] = []

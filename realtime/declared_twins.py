@@ -7,6 +7,7 @@ from .ambient.twin import TWINS as AMBIENT_TWINS
 from .discovery import effects
 from .environments.twin import TWINS as ENVIRONMENT_TWINS
 from .packing_twins import TWINS as PACKING_TWINS
+from .pictures.twin import TWINS as PICTURE_TWINS
 from .reflections.twin import TWINS as REFLECTION_TWINS
 from .shaders import SHARED
 from .shadows.twin import TWINS as SHADOW_TWINS
@@ -24,6 +25,7 @@ def declared_twins() -> list[tuple[Path, Twin]]:
             *AMBIENT_TWINS,
             *ENVIRONMENT_TWINS,
             *PACKING_TWINS,
+            *PICTURE_TWINS,
             *REFLECTION_TWINS,
         )
     ]

@@ -120,10 +120,10 @@ class Device:
         """A vertex array that covers the screen with one triangle."""
         return self.gl.vertex_array(program, [])
 
-    def draw(self, vertices, count: int = -1, first: int = 0) -> None:
-        """Draw triangles."""
+    def draw(self, vertices, count: int = -1, first: int = 0, mode: int | None = None) -> None:
+        """Draw triangles, or what `mode` says."""
         self.counts["draws"] += 1
-        vertices.render(self.gl.TRIANGLES, vertices=count, first=first)
+        vertices.render(self.gl.TRIANGLES if mode is None else mode, vertices=count, first=first)
 
     def finish(self) -> None:
         """Wait until everything drawn so far is done."""

@@ -1,4 +1,4 @@
-"""The display chain: tone and encode, on the device for the frame, and as NumPy twins for any image."""
+"""The display chain on the device: glare, exposure, tone and encode, from the scene-linear image to code values."""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -7,39 +7,101 @@ import numpy as np
 
 from .device import Device
 from .effect import Effect, Knobs
-from .graph import Plan
+from .fullscreen import FullscreenPass
+from .graph import DISPLAY_TERMS, Plan, Step
+from .lighting import Action
 from .shaders import Source, source
-from .uniforms import bind, set_uniforms
+from .stage import Stage
 
-DISPLAY_TERMS = ("tone", "encode")
+POINTWISE = ("tone", "encode")
+"""The terms that need nothing of an image but the pixel itself. Glare and exposure have passes of their own."""
 
 
-class DisplayPass:
-    """Applies one display effect to a whole image."""
+class DisplayChain:
+    """The passes of a plan's display steps, in order."""
 
-    def __init__(self, device: Device, effect: Effect, knobs: Knobs, term: str) -> None:
-        self._device, self._knobs = device, knobs
-        fragment = source("display.frag", {"FUNCTION": term}).text
+    def __init__(self, stage: Stage, plan: Plan) -> None:
+        self._stage, self._plan = stage, plan
+        self._steps = [step for step in plan.steps if step.writes[0] in DISPLAY_TERMS]
+        self._own = {step: self._made(step) for step in self._steps if step.writes[0] not in POINTWISE}
+        pointwise = [step for step in self._steps if step.writes[0] in POINTWISE]
+        is_metered = any(step.writes == ("exposure",) for step in self._steps)
+        self._pointwise = {
+            step: PointwisePass(stage.device, *plan.effects[step.effect], step.writes[0], is_metered and place == 0)
+            for place, step in enumerate(pointwise)
+        }
+        self._targets = {}
+        for step in pointwise:
+            texture = stage.device.target(stage.size, dtype="f1" if step.writes[0] == "encode" else "f4")
+            self._targets[step] = stage.device.framebuffer([texture]), texture
+
+    def _made(self, step: Step):
+        effect, knobs = self._plan.effects[step.effect]
+        module = import_module(f"{__package__}.effects.{effect.name}.passes")
+        return module.Passes(self._stage, knobs, effect.folder)
+
+    @property
+    def encoded(self):
+        """The texture of code values; None where no effect encodes."""
+        return next((self._targets[step][1] for step in self._targets if step.writes == ("encode",)), None)
+
+    def actions(self, image) -> list[Action]:
+        """What is drawn, one after another, of `image`, a texture of scene-linear radiance."""
+        actions: list[Action] = []
+        camera = self._plan.scene.camera
+        scale, metered = camera.exposure_scale(), None
+        for step in self._steps:
+            if step in self._own:
+                own = self._own[step]
+                actions.append((step.effect, step.effect, lambda own=own, image=image: own.draw(image)))
+                if step.writes == ("exposure",):
+                    assert camera.metering is not None
+                    scale, metered = camera.exposure_scale() * camera.metering.grey, own.average
+                else:
+                    image = own.image
+                continue
+            made, (framebuffer, texture) = self._pointwise[step], self._targets[step]
+            draw = lambda p=made, i=image, f=framebuffer, s=scale, m=metered: p.draw(i, f, s, m)  # noqa: E731
+            actions.append((step.effect, step.effect, draw))
+            image, scale, metered = texture, 1.0, None
+        return actions
+
+
+class PointwisePass:
+    """Applies one effect for tone or encode to a whole image.
+
+    Args:
+        is_metered: the exposure is what a texture says.
+    """
+
+    def __init__(self, device: Device, effect: Effect, knobs: Knobs, term: str, is_metered: bool) -> None:
+        defines = {"FUNCTION": term, "METERED": is_metered, **effect.defines(knobs)}
+        fragment = source("display.frag", defines).text
         body = source(f"{effect.name}.glsl", folder=effect.folder).text.removeprefix("#version 410\n")
-        self._program = device.program(Source(fragment.replace("EFFECT", body)))
-        self._vertices = device.fullscreen(self._program)
+        self._pass = FullscreenPass(device, Source(fragment.replace("EFFECT", body)), dict(knobs))
 
-    def draw(self, image, target, scale: float) -> None:
-        """Draw `image`, a texture, times `scale` into the framebuffer `target`."""
-        target.use()
-        self._device.gl.enable_only(self._device.gl.NOTHING)
-        set_uniforms(self._program, {**self._knobs, "exposure_scale": scale})
-        bind(self._program, {"image": image})
-        self._device.draw(self._vertices, 3)
+    def draw(self, image, target, scale: float, average=None) -> None:
+        """Draw `image`, a texture, times `scale` and over the average that was metered, into a framebuffer."""
+        textures = {"image": image} if average is None else {"image": image, "metered": average}
+        self._pass.draw(target, textures, values={"exposure_scale": scale})
 
 
-def display_transform(plan: Plan) -> Callable[[np.ndarray], np.ndarray]:
-    """The frame's display transform as a function: (…, 3) scene-linear to code values 0…1, not yet quantised."""
-    exposure = 2.0**plan.scene.camera.exposure
-    stages = [(twin(plan, term), plan.effects[name][1]) for term in DISPLAY_TERMS if (name := plan.effect_of(term))]
+def display_transform(plan: Plan, frame: np.ndarray | None = None) -> Callable[[np.ndarray], np.ndarray]:
+    """The frame's display transform as a function: (…, 3) scene-linear to code values 0…1, not yet quantised.
+
+    Glare is no part of it: what it does to a pixel depends on all others.
+
+    Args:
+        frame: (H, W, 3) the frame's radiance. A camera that meters meters this, by its exact rule, for whatever is
+            shown: so both sides of a comparison are shown alike.
+    """
+    camera = plan.scene.camera
+    metered = camera.metering is not None and frame is not None and plan.effect_of("exposure")
+    scale = camera.exposure_scale(camera.metering.average(frame) if metered else None)
+    stages = [(twin(plan, term), plan.effects[name][1]) for term in POINTWISE if (name := plan.effect_of(term))]
 
     def transform(image: np.ndarray) -> np.ndarray:
-        out = np.asarray(image) * np.asarray(exposure, dtype=image.dtype)
+        out = np.asarray(image) * np.asarray(scale, dtype=image.dtype)
         for function, knobs in stages:
             out = function(out, knobs)
         return np.clip(out, 0.0, 1.0)
@@ -47,8 +109,13 @@ def display_transform(plan: Plan) -> Callable[[np.ndarray], np.ndarray]:
     return transform
 
 
-def twin(plan: Plan, term: str) -> Callable[[np.ndarray, Knobs], np.ndarray]:
-    """The NumPy twin of the plan's effect for `term`, tone or encode."""
+def twin(plan: Plan, term: str) -> Callable[..., np.ndarray]:
+    """The NumPy twin of the plan's (first) effect for a display term."""
     name = plan.effect_of(term)
-    module = import_module(f"{__package__}.effects.{name}.twin")
-    return getattr(module, term)
+    assert name is not None
+    return twin_of(name, term)
+
+
+def twin_of(effect: str, term: str) -> Callable[..., np.ndarray]:
+    """An effect's NumPy twin: tone, encode and glare of (image, knobs), exposure of (image, knobs, metering)."""
+    return getattr(import_module(f"{__package__}.effects.{effect}.twin"), term)

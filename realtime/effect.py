@@ -122,7 +122,8 @@ class Effect:
             costs nothing.
         tables: (H, W, 4) float32 arrays that its shader looks up with linear interpolation, from the knobs, by the
             sampler's name.
-        part: for terms of the G-buffer: what of it the effect changes. One effect for each part takes part.
+        part: for terms of the G-buffer and of the display: what of it the effect changes. One effect for each part
+            takes part.
         optional: whether it takes part only where it is asked for.
         surface: for `surface`: the scene as it is drawn, from the scene and the knobs.
         stores: for `surface` and `material`: formats of the G-buffer's channels, see `layout.py`, from the knobs.

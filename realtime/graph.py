@@ -14,7 +14,8 @@ from .effect import Effect, EffectError, Knobs, nearest
 FACTORS = {"direct": "visibility", "environment": "environment_visibility"}
 """Which visibility a radiance is multiplied with."""
 
-DRAWN_TERMS = ("direct", "visibility", "environment", "environment_visibility", "indirect", "tone", "encode")
+DISPLAY_TERMS = tuple(term.name for term in TERMS.values() if term.scope == "display")
+DRAWN_TERMS = ("direct", "visibility", "environment", "environment_visibility", "indirect", *DISPLAY_TERMS)
 
 
 @dataclass(frozen=True)
@@ -256,10 +257,19 @@ def _steps(
             steps.append(Step(environment.name, ("environment",), factor))
         if indirect:
             steps.append(Step(indirect.name, ("indirect",), ("scattered",) if indirect.reads_scattered else ()))
-    for term in ("tone", "encode"):
-        if effect := first(term):
-            steps.append(Step(effect.name, (term,), ("radiance" if term == "tone" else "tone",)))
+    image = "radiance"
+    for term in DISPLAY_TERMS:
+        for effect in _of_display(candidates, term, choice) if first(term) else ():
+            steps.append(Step(effect.name, (term,), (image,)))
+            image = term
     return steps, list(uncovered)
+
+
+def _of_display(candidates: list[Effect], term: str, choice: Choice) -> list[Effect]:
+    """What is drawn of a display term: the first candidate for each part of it, what has no part of its own first."""
+    parts = sorted({effect.part for effect in candidates if term in effect.terms})
+    found = (_first(candidates, term, choice, lambda e, part=part: e.part == part) for part in parts)
+    return [effect for effect in found if effect is not None]
 
 
 def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: list[Effect], choice: Choice) -> LeftOut:

@@ -2,7 +2,6 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -12,10 +11,10 @@ from lightmeter.scenes.terms import TERMS
 from .averager import Averager
 from .baking import Baking
 from .device import Device
-from .display import DISPLAY_TERMS, DisplayPass
+from .display import DisplayChain
 from .gbuffer import CHANNELS, GBuffer
 from .geometry import Geometry
-from .graph import Plan, Step
+from .graph import DISPLAY_TERMS, Plan, Step
 from .lighting import Action, Lighting
 from .projection import viewer
 from .scattered_light import FrameScatteredLight, ScatteredLight
@@ -79,15 +78,7 @@ class Renderer:
         self._passes = self._make_passes(self._stage, separate=False)
         scene_steps = [step for step in plan.steps if step.writes[0] not in DISPLAY_TERMS]
         self._lighting = Lighting(self._stage, scene_steps, self._radiance_buffer, self._passes)
-        self._display = {
-            step.writes[0]: (DisplayPass(device, *plan.effects[step.effect], step.writes[0]), step.effect)
-            for step in plan.steps
-            if step.writes[0] in DISPLAY_TERMS
-        }
-        self._display_targets: dict[str, Any] = {}
-        for term in self._display:
-            texture = device.target(size, dtype="f1" if term == "encode" else "f4")
-            self._display_targets[term] = device.framebuffer([texture]), texture
+        self._display = DisplayChain(self._stage, plan)
         coverage = plan.effect_of("coverage")
         self.offsets = CENTRE
         if coverage is not None:
@@ -116,16 +107,7 @@ class Renderer:
             self._scattered.remember_emission()
 
     def _display_actions(self) -> list[Action]:
-        actions: list[Action] = []
-        image = self._sum[1] if self._sum else self._radiance
-        scale = 2.0**self.plan.scene.camera.exposure
-        for term, (display, effect) in self._display.items():
-            framebuffer, texture = self._display_targets[term]
-            actions.append(
-                (effect, effect, lambda d=display, i=image, f=framebuffer, s=scale: d.draw(i, f, s)),
-            )
-            image, scale = texture, 1.0
-        return actions
+        return self._display.actions(self._sum[1] if self._sum else self._radiance)
 
     def draw(self) -> None:
         """Draw the frame once."""
@@ -148,8 +130,8 @@ class Renderer:
         """The frame as images."""
         self.draw()
         radiance = self.device.read(self._sum[1] if self._sum else self._radiance)[..., :3]
-        encoded = self._display_targets.get("encode")
-        return Frame(radiance, self.device.read(encoded[1])[..., :3] if encoded else None)
+        encoded = self._display.encoded
+        return Frame(radiance, None if encoded is None else self.device.read(encoded)[..., :3])
 
     def measure(self, frames: int = 20, warm_up: int = 3) -> Times:
         """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""

@@ -27,9 +27,11 @@ def missing_terms(scene: Scene) -> dict[str, str]:
     missing = {
         "surface": "every shape is rendered from the same triangles on both sides",
         "transmission": "the scene has no dielectric solids",
-        "glare": "the camera has no aperture to diffract at",
-        "exposure": "the camera's exposure is set by hand",
     }
+    if scene.camera.aperture is None:
+        missing["glare"] = "the camera has no aperture to diffract at"
+    if scene.camera.metering is None:
+        missing["exposure"] = "the camera's exposure is set by hand"
     shapes = [shape for shape in scene.shapes if len(shape.mesh.triangles)]
     flat = len(shapes) <= 1 and all(is_flat(shape) for shape in shapes)
     alone = "one flat shape cannot stand in its own light" if shapes else "the scene has no shapes"

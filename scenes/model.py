@@ -16,6 +16,8 @@ from typing import Literal, Protocol
 
 import numpy as np
 
+from lightmeter.scenes.aperture import Aperture
+from lightmeter.scenes.metering import Metering
 from lightmeter.scenes.texels import check_texels
 
 Vector = tuple[float, float, float]
@@ -370,7 +372,9 @@ class Camera:
         yfov: full vertical angle of view in radians, or None.
         ymag: half the height of what is seen, metres, or None.
         near, far: the clipping distances of the real-time side, metres.
-        exposure: stops, applied before the display transform on both sides.
+        exposure: stops, applied before the display transform on both sides; with metering, added to what it gives.
+        metering: how the exposure is found in the picture; None: it is set by hand.
+        aperture: the opening that light is diffracted at; None: it is not.
     """
 
     name: str
@@ -380,6 +384,8 @@ class Camera:
     near: float = 0.01
     far: float = 100.0
     exposure: float = 0.0
+    metering: Metering | None = None
+    aperture: Aperture | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "matrix", _frozen(self.matrix, np.float64, (4, 4)))
@@ -390,6 +396,15 @@ class Camera:
     def position(self) -> np.ndarray:
         """(3,) float64, world space."""
         return self.matrix[:3, 3]
+
+    def exposure_scale(self, average: float | None = None) -> float:
+        """What pictures are multiplied with before the display transform.
+
+        Args:
+            average: the log₂ of the average luminance that was metered; None: nothing was.
+        """
+        metered = 1.0 if self.metering is None or average is None else self.metering.scale(average)
+        return metered * 2.0**self.exposure
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,5 +1,6 @@
 """camera.json: what an engine needs to draw the picture that is compared, with every convention spelled out."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -66,6 +67,8 @@ def camera_document(scene: Scene, size: tuple[int, int]) -> dict[str, Any]:
         "size": list(size),
         "camera": _camera(scene.camera, size),
         "exposure": scene.camera.exposure,
+        "metering": None if scene.camera.metering is None else asdict(scene.camera.metering),
+        "aperture": None if scene.camera.aperture is None else asdict(scene.camera.aperture),
         "max_depth": scene.max_depth,
         "environment": environment,
         "lights": [_light(scene, light, index) for index, light in enumerate(scene.all_lights)],

@@ -1,7 +1,10 @@
-"""IEC 61966-2-1 (sRGB), both ways."""
+"""IEC 61966-2-1 (sRGB): the curve both ways, and how bright its primaries are."""
 
 from . import arrays as xp
 from .arrays import Array
+
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+"""Of linear red, green and blue."""
 
 
 def srgb_decode(code: Array) -> Array:

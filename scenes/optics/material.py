@@ -19,6 +19,7 @@ from . import arrays as xp
 from .anisotropy import Grain
 from .arrays import Array
 from .clear_coat import Coat
+from .color import LUMINANCE
 from .frames import basis
 from .sheen import Sheen
 
@@ -149,7 +150,7 @@ def _base_pdf(point: MaterialPoint, n: Array, v: Array, l: Array) -> Array:  # n
 
 def luminance(color: Array) -> Array:
     """Rec. 709 luminance of a linear colour."""
-    return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+    return LUMINANCE[0] * color[0] + LUMINANCE[1] * color[1] + LUMINANCE[2] * color[2]
 
 
 def sample(point: MaterialPoint, n: Array, v: Array, u: tuple[Array, Array, Array], vector: Callable) -> Array:

@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from lightmeter.scenes import framing, shapes
+from lightmeter.scenes.aperture import Aperture
 from lightmeter.scenes.checks import Budget, check_shapes
 from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.environments import BUILT_IN, built_in, environment_from
 from lightmeter.scenes.errors import SceneError, nearest, shown
 from lightmeter.scenes.files import inside, read_bytes
 from lightmeter.scenes.images import read_image
+from lightmeter.scenes.metering import Metering
 from lightmeter.scenes.model import (
     Camera,
     DirectionalLight,
@@ -112,7 +114,13 @@ class Builder:
         far = entry.far or (far if far > (entry.near or 0) else 2 * (entry.near or 0))
         near = entry.near or (near if near < far else 1e-4 * far)
         yfov = None if entry.yfov is None else float(np.radians(entry.yfov))
-        return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure)
+        metering = None if entry.metering is None else Metering(**entry.metering.model_dump())
+        aperture = None if entry.aperture is None else self.aperture(entry.aperture)
+        return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure, metering, aperture)
+
+    def aperture(self, entry: entries.ApertureEntry) -> Aperture:
+        rotation = float(np.radians(entry.rotation))
+        return Aperture(entry.f_number, entry.blades or 0, rotation, entry.sensor_height)
 
     def material(self, name: str, entry: entries.MaterialEntry, place: str) -> Material:
         values = {key: getattr(entry, key) for key in entries.MaterialEntry.model_fields}

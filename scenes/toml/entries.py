@@ -121,6 +121,34 @@ class MaterialEntry(Strict):
     sheen_roughness_texture: TextureKey | None = Field(None, description="Factor in alpha.")
 
 
+class MeteringEntry(Strict):
+    """Automatic exposure: a log-average of the picture's luminance is brought to a grey."""
+
+    grey: Positive = Field(0.18, description="What the average is brought to; 1 is diffuse white.")
+    darkest: Fraction = Field(0.0, description="Share of the pixels, the darkest, that do not count.")
+    brightest: Fraction = Field(0.0, description="Share of the pixels, the brightest, that do not count.")
+    floor: Positive = Field(1e-4, description="Luminance below which a pixel counts as this, W/(sr·m²).")
+
+    @model_validator(mode="after")
+    def _something_counts(self) -> "MeteringEntry":
+        if self.darkest + self.brightest > 0.99:
+            raise ValueError("darkest and brightest together leave less than a hundredth of the pixels")
+        return self
+
+
+class ApertureEntry(Strict):
+    """The opening that light enters the camera by: bright lights glare by diffraction at it."""
+
+    f_number: Annotated[float, Field(strict=True, ge=0.5, le=256)] = 8.0
+    blades: Annotated[int, Field(strict=True, ge=3, le=32)] | None = Field(
+        None, description="Corners of a regular polygon; a circle unless given."
+    )
+    rotation: Number = Field(0.0, description="Degrees, anticlockwise in the picture; at 0 a corner points up.")
+    sensor_height: Annotated[float, Field(strict=True, ge=1e-4, le=1)] = Field(
+        0.024, description="Metres that the picture's height takes on the sensor."
+    )
+
+
 class CameraEntry(Strict):
     """Where the picture is taken from: `position` and `target`, or `matrix`; `yfov` or `ymag`."""
 
@@ -135,7 +163,11 @@ class CameraEntry(Strict):
     ymag: Length | None = Field(None, description="Half the height an orthographic camera sees, metres.")
     near: Positive | None = Field(None, description="Metres; fitted to the scene unless given.")
     far: Positive | None = Field(None, description="Metres; fitted to the scene unless given.")
-    exposure: Annotated[float, Field(strict=True, ge=-64, le=64)] = Field(0.0, description="Stops.")
+    exposure: Annotated[float, Field(strict=True, ge=-64, le=64)] = Field(
+        0.0, description="Stops; with metering, added to what it gives."
+    )
+    metering: MeteringEntry | None = Field(None, description="The exposure is set by hand unless given.")
+    aperture: ApertureEntry | None = Field(None, description="Nothing is diffracted unless given.")
 
     @model_validator(mode="after")
     def _complete(self) -> "CameraEntry":

@@ -106,7 +106,9 @@ def test_captured_terms_compose_to_the_frame(device, name):
     assert (np.abs(frame.radiance - total) <= steps * EPS * np.abs(total) + 1e-12).all()
 
 
-@pytest.mark.parametrize("choice", [Choice(), Choice(use=("gamma_22",)), Choice(without=("narkowicz",))])
+@pytest.mark.parametrize(
+    "choice", [Choice(), Choice(use=("gamma_22", "hill")), Choice(use=("reinhard",)), Choice(without=("narkowicz",))]
+)
 def test_the_display_transform_is_the_device_s_to_eight_bit_rounding(device, choice):
     """Half a code for rounding, and what float32's pow may move it by: below 0.01 of a code."""
     scene = load("posts")

@@ -147,7 +147,7 @@ def test_settings_are_read_and_checked():
     plan = plan_of(scene, Choice(settings={"supersampling": {"grid": "4"}, "narkowicz": {"prescale": 1}}))
     assert plan.effects["supersampling"][1] == {"grid": 4}
     assert plan.effects["narkowicz"][1] == {"prescale": 1.0}
-    assert plan.effects["srgb"][1] == {}
+    assert plan.effects["srgb"][1] == {"dither": "none"}
 
 
 def test_what_is_left_out_is_not_replaced_unasked():
@@ -173,7 +173,7 @@ def test_what_is_left_out_is_not_replaced_unasked():
         (Choice(use=("zzz",)), "there are: area_as_point"),
         (Choice(settings={"shadowmap": {}}), "did you mean 'shadow_map'"),
         (Choice(settings={"shadow_map": {"resolutoin": 3}}), "did you mean 'resolution'"),
-        (Choice(settings={"srgb": {"gamma": 3}}), "it has no knobs"),
+        (Choice(settings={"lambert": {"gamma": 3}}), "it has no knobs"),
         (Choice(settings={"shadow_map": {"resolution": "many"}}), "expected a whole number, got 'many'"),
         (Choice(settings={"shadow_map": {"resolution": 2.5}}), "expected a whole number, got 2.5"),
         (Choice(settings={"shadow_map": {"resolution": 1}}), "within [16, 8192], got 1"),

@@ -21,6 +21,7 @@ NAMES = (
     "cornell-box",
     "corner",
     "grid-sun",
+    "lamps",
     "lattice",
     "layers",
     "material-layers",
