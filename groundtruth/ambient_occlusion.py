@@ -44,7 +44,7 @@ def ambient_occlusion(
     if not radius > 0:
         raise ValueError(f"the radius of ambient occlusion must be above 0, got {radius}")
     vertices = Vertices(world, points)
-    reach = mi.Float(min(float(radius), 1e30))
+    reach = mi.Float(min(float(radius) * world.frame.scale, 1e30))
     dr.make_opaque(reach)
 
     def estimate(vertex: Vertex, lanes: Lanes):

@@ -19,5 +19,6 @@ def mirrored_hits(world: World, points: SurfacePoints) -> np.ndarray:
     hit = rays.first_hit(world, vertex.interaction.spawn_ray(direction), vertex.carries(direction))
     met = hit.is_valid()
     side = dr.select(dr.dot(hit.n, direction) > 0, -hit.n, hit.n)
-    found = (mi.Vector3f(dr.select(met, part, 0)) for part in (hit.p, side))
-    return np.stack([vertices.image(part.numpy()) for part in found])
+    dr.eval(hit.p, side, met)
+    places = np.where(met.numpy(), world.frame.leave(hit.p.numpy().T).T, 0)
+    return np.stack([vertices.image(part) for part in (places, np.where(met.numpy(), side.numpy(), 0))])

@@ -1,13 +1,12 @@
-"""Whether a scene lies too far from the origin, or is too small, for the float32 arithmetic of the path tracer.
+"""What float32 still does to the truth of a scene that is far from the origin, small, or large.
 
-A ray starts off its surface by a distance that grows with the coordinates, lest it hit the surface that it leaves:
-Mitsuba's `SurfaceInteraction.offset_p` takes (1 + max |p|) · 1500 ε, ε = 2⁻²⁴: 0.1 mm at the origin, 9 cm at a
-kilometre, 9 m at a hundred. What is nearer than that casts no shadow, light leaks through thin walls, and vertices
-are rounded besides (6 cm at 10⁶ m). All of that goes away in the same scene with the camera at the origin. So the two
-are path traced with the same random numbers, and what sets them apart is the float32 error of the scene's place.
+Such a scene is path traced in a frame of its own (see `frame`), where the error of float32 is that of any scene at the
+origin. It remains where what the camera sees is far from that frame's origin too, or much smaller than its metre: rays
+start off their surface by (u + |p|) · 1500 ε. So the scene is path traced twice more, with the same random numbers:
 
-The 1 in that distance is a metre: 0.1 mm it is for a scene of a millimetre too. So the scene at the origin that is the
-measure is enlarged as well, by a power of two, which rounds nothing.
+- about the middle of what is seen. Where the truth's frame is as good as that one, the two are the same;
+- in a frame whose origin is 3 (u + |p|) away from there: the offset is 4 times as large as it is in the truth's frame,
+  and the roundings with it. Errors so small that they are linear differ by 3 times the error itself.
 """
 
 import math
@@ -15,18 +14,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lightmeter.groundtruth.frame import Frame
 from lightmeter.metrics.bias import bias
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.mse import rmse
 from lightmeter.scenes.model import Scene
-from lightmeter.scenes.moving import moved, scaled
 
 TOLERANCE = 0.01
 """Of the mean radiance, as RMS error: a truth that is wrong by more settles no limit of a few per cent."""
 
-FAR = 16.0
-"""1 m and the reach from the origin may together be this many times the reach from the camera, unchecked: what centring
-and enlarging wins is at most 4 of float32's 24 bits then."""
+COARSER = 4.0
+"""How many times as large the error is in the other frame."""
 
 SIDE = 32
 """Pixels of the longer side of the image that is checked."""
@@ -35,11 +33,11 @@ SPP, BATCHES = 16, 8
 
 @dataclass(frozen=True)
 class OffsetCheck:
-    """What a scene's place does to its reference.
+    """What float32 does to the reference of a scene.
 
     Attributes:
-        difference: RMS difference between the scene as it is placed and the same with its camera at the origin, over
-            their mean radiance; NaN where the placed one is not finite.
+        difference: RMS error of the truth by what other frames make of it, over the mean radiance; NaN where the
+            truth is not finite.
         low: what of it is not noise: the lower end of its 95 % interval, or of the mean difference's, which fireflies
             hide less.
         reach: metres, the largest coordinate of the scene and its camera.
@@ -51,64 +49,64 @@ class OffsetCheck:
 
     @property
     def holds(self) -> bool:
-        """Whether the difference may be below the tolerance."""
+        """Whether the error may be below the tolerance."""
         return self.low <= TOLERANCE
 
     @property
     def words(self) -> str:
         """One sentence with the remedy, for a check that does not hold."""
-        differs = f"it differ by {100 * self.difference:.3g} % of the mean from the same scene"
-        if self.reach < 1.0:
-            return (
-                f"the reference is not to be trusted: in a scene of {self.reach:.3g} m the 0.1 mm by which rays "
-                f"start off surfaces make {differs} enlarged; scale the scene up"
-            )
         return (
-            f"the reference is not to be trusted: {self.reach:.3g} m from the origin float32 makes {differs} at the "
-            "origin; move the scene nearer to it"
+            f"the reference is not to be trusted: in a scene that reaches {self.reach:.3g} m from the origin, float32 "
+            f"makes it wrong by about {100 * self.difference:.3g} % of the mean; put what is seen and the camera "
+            "nearer together, or leave out what is far away"
         )
 
 
 def is_far(scene: Scene) -> bool:
-    """Whether the scene is so far from the origin, or so small, that the check has something to find."""
-    extent = _extent(scene)
-    return bool(extent > 0 and 1.0 + np.abs(np.stack(scene.bounds)).max() > FAR * extent)
-
-
-def _extent(scene: Scene) -> float:
-    """Metres from the camera to the farthest corner, along an axis."""
-    return float(np.abs(np.stack(scene.bounds) - scene.camera.position).max())
+    """Whether the scene is so far from the origin, so small or so large, that the check has something to find."""
+    return not Frame.of(scene).is_world
 
 
 def check_offset(scene: Scene, size: tuple[int, int] = (SIDE, SIDE), seed: int = 0) -> OffsetCheck:
-    """Path traces a small image of the scene where it is, and of the scene around the origin.
+    """Path traces a small image of the scene in the truth's frame, about what is seen, and where float32 is coarser.
 
     Args:
         size: (width, height) of the image that is meant; its proportions alone matter.
 
     Raises:
-        InputError: around the origin the scene has no finite pixel.
+        InputError: in another frame the scene has no finite pixel.
         NoRendererError: Mitsuba cannot run here.
     """
+    from lightmeter.groundtruth.primary import seen_places
     from lightmeter.groundtruth.reference import render_batch
     from lightmeter.groundtruth.world import World
 
     shrink = SIDE / max(size)
     small = max(1, round(size[0] * shrink)), max(1, round(size[1] * shrink))
 
-    def images(of: Scene) -> np.ndarray:
-        world = World.of(of)
+    def images(world: World) -> np.ndarray:
         return np.stack([render_batch(world, small, SPP, seed, batch) for batch in range(BATCHES)])
 
-    larger = 2.0 ** max(0, math.ceil(-math.log2(_extent(scene) / FAR)))
-    placed, centred = images(scene), images(scaled(moved(scene, -scene.camera.position), larger))
-    finite = np.isfinite(centred).all(axis=(0, 3))
+    world = World.of(scene)
+    found, places = images(world), seen_places(world, small)
+    middle = np.median(places, axis=0).astype(np.float64) if len(places) else np.zeros(3)
+    away = (COARSER - 1) * (1.0 + np.abs(middle).max())
+    better, coarser = (images(World.of(scene, frame=world.frame.about(p))) for p in (middle, middle - away))
     reach = float(np.abs(np.stack([*scene.bounds, scene.camera.position])).max())
-    comparison = Comparison(placed, centred, finite)
-    found, shift = rmse(comparison), bias(comparison)
-    mean = float(np.mean([placed[:, finite], centred[:, finite]], dtype=np.float64))
-    if found.low is None or shift.low is None or shift.high is None:
+    return max(
+        (_compared(found, better, 1.0, reach), _compared(found, coarser, COARSER - 1, reach)), key=lambda c: c.low
+    )
+
+
+def _compared(found: np.ndarray, other: np.ndarray, times: float, reach: float) -> OffsetCheck:
+    """What two sets of batches say of the error; they differ by so many times the error."""
+    finite = np.isfinite(other).all(axis=(0, 3))
+    comparison = Comparison(found, other, finite)
+    square, shift = rmse(comparison), bias(comparison)
+    mean = float(np.mean([found[:, finite], other[:, finite]], dtype=np.float64))
+    if square.low is None or shift.low is None or shift.high is None:
         return OffsetCheck(math.nan, math.inf, reach)
     if not mean > 0:  # both are black
         return OffsetCheck(0.0, 0.0, reach)
-    return OffsetCheck(found.value / mean, max(found.low, shift.low, -shift.high) / mean, reach)
+    error = mean * times
+    return OffsetCheck(square.value / error, max(square.low, shift.low, -shift.high) / error, reach)

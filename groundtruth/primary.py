@@ -37,7 +37,7 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
     around = world.scene.environment
     sky = black if around is None else environment.radiance(around, towards.T).T.reshape(height, width, 3)
     bare = SurfacePoints(
-        position=hit.p.numpy().T.reshape(height, width, 3),
+        position=world.frame.leave(hit.p.numpy().T).reshape(height, width, 3),
         normal=black,
         view=np.broadcast_to(view.numpy().T, (height * width, 3)).reshape(height, width, 3),
         base_color=black,
@@ -50,6 +50,15 @@ def surface_points(world: World, size: tuple[int, int], offsets: np.ndarray | No
         triangle=triangle.numpy().reshape(height, width),
     )
     return material.evaluate(world, bare)
+
+
+def seen_places(world: World, size: tuple[int, int]) -> np.ndarray:
+    """(N, 3) float32: what is seen at the pixels' centres, in the world's frame."""
+    pixel, middle = dr.arange(mi.UInt32, size[0] * size[1]), mi.Float(0.5)
+    hit = rays.first_hit(world, PrimaryRays(world.scene.camera, size).through(pixel, middle, middle), mi.Bool(True))
+    place, seen = hit.p, hit.is_valid()
+    dr.eval(place, seen)
+    return place.numpy().T[seen.numpy()]
 
 
 _STREAM = 0x5EE

@@ -39,7 +39,7 @@ class Vertices:
             return  # nothing is ever evaluated, and Dr.Jit computes with no empty arrays
         shape = mi.UInt32(self._rows(points.shape, np.uint32))
         triangle = mi.UInt32(self._rows(points.triangle, np.uint32))
-        self.position = mi.Float(self._rows(points.position))
+        self.position = mi.Float(world.frame.enter(self._rows(points.position).reshape(-1, 3)).ravel())
         self.normal = mi.Float(self._rows(points.normal))
         self.view = mi.Float(self._rows(points.view))
         self.base_color = mi.Float(self._rows(points.base_color))
@@ -126,7 +126,7 @@ class Vertex:
     """One point per lane.
 
     Attributes:
-        position: where the G-buffer has it.
+        position: where the G-buffer has it, in the world's frame as all that is here.
         interaction: where rays start, with the geometric normal (Mitsuba's own rule for the offset).
         normal, view: shading normal and direction to the viewer.
         material: the G-buffer's parameters.

@@ -8,6 +8,7 @@ from lightmeter.groundtruth import emitters, tables
 from lightmeter.groundtruth.bsdf import MASK, SceneBSDF, kind
 from lightmeter.groundtruth.emitters import SurfaceEmitter
 from lightmeter.groundtruth.environment_map import MapEmitter
+from lightmeter.groundtruth.frame import WORLD, Frame
 from lightmeter.groundtruth.multiscatter_bsdf import MultiscatterBSDF
 from lightmeter.groundtruth.scattering import MULTISCATTER, SINGLE, check_scattering
 from lightmeter.groundtruth.surface import ALL_SLOTS
@@ -24,7 +25,7 @@ class World:
     """A scene, ready to trace rays in. Build it with `World.of`.
 
     Attributes:
-        scene: what it was made from.
+        scene: what it was made from, as it is in `frame`: all that is traced is there, and nowhere else.
         mitsuba: the `mi.Scene`.
         meshes: one `mi.Mesh` per shape, None where a shape has no triangles.
         around: the emitter of the environment, None where there is none.
@@ -32,6 +33,7 @@ class World:
         masked: whether any material has an alpha mask.
         slots: texture slots (and "color", and the materials' layers) that any shape uses.
         scattering: which truth, see `scattering`.
+        frame: the origin and the metre of everything here; positions that come or go are changed by it.
     """
 
     scene: Scene
@@ -42,17 +44,23 @@ class World:
     masked: bool
     slots: frozenset[str]
     scattering: str = SINGLE
+    frame: Frame = WORLD
     _alone: dict = field(default_factory=dict)
 
     @classmethod
-    def of(cls, scene: Scene, scattering: str = SINGLE) -> "World":
+    def of(cls, scene: Scene, scattering: str = SINGLE, frame: Frame | None = None) -> "World":
         """Builds the world of a scene.
+
+        Args:
+            frame: where it is traced; None: where float32 does best.
 
         Raises:
             NoRendererError: Mitsuba cannot run here.
             ValueError: the scene has more texels or corners than 32 bits can count, or there is no such truth.
         """
         check_scattering(scattering, scene)
+        frame = Frame.of(scene) if frame is None else frame
+        scene = frame.scene(scene)
         bsdf_of = MultiscatterBSDF if scattering == MULTISCATTER else SceneBSDF
         bsdfs = {k: bsdf_of(k) for k in dict.fromkeys(map(kind, scene.shapes))}
         lamps = {light.shape: emitters.area(scene.shapes[light.shape]) for light in scene.area_lights}
@@ -84,6 +92,7 @@ class World:
             any(MASK in k for k in bsdfs),
             frozenset(used) & ALL_SLOTS,
             scattering,
+            frame,
         )
 
     def integrator(self, max_depth: int):

@@ -92,10 +92,12 @@ def _rectangle(corners: np.ndarray) -> Rectangle | None:
 
 
 def _disk(corners: np.ndarray) -> Disk | None:
+    if len(corners) < FEWEST_RIM_CORNERS:
+        return None
     centre = corners.mean(axis=0)
     spokes = corners - centre
     lengths = np.linalg.norm(spokes, axis=1)
-    if len(corners) < FEWEST_RIM_CORNERS or np.ptp(lengths) > ROUND * lengths.max():
+    if np.ptp(lengths) > ROUND * lengths.max():
         return None
     double_area = np.cross(spokes, np.roll(spokes, -1, axis=0)).sum(axis=0)
     size = np.linalg.norm(double_area)

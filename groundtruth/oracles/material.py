@@ -44,7 +44,8 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
         dr.gather(mi.UInt32, mi.UInt32(a[where].astype(np.uint32)), lane) for a in (flat.shape, flat.triangle)
     )
     position, view = (
-        dr.gather(mi.Vector3f, mi.Float(a[where].astype(np.float32).ravel()), lane) for a in (flat.position, flat.view)
+        dr.gather(mi.Vector3f, mi.Float(a.astype(np.float32).ravel()), lane)
+        for a in (world.frame.enter(flat.position[where]), flat.view[where])
     )
     corners = SurfacePoint(world.tables, shape, triangle, mi.Float(0), mi.Float(0), frozenset(), True)
     b1, b2 = _barycentric(corners, position)

@@ -35,20 +35,20 @@ def test_a_frame_is_the_same_at_every_scale(findings, name):
     assert findings[name].frame_changed < 2**-10, findings[name].blame
 
 
-def test_a_change_of_place_is_seen_named_and_not_trusted(findings):
+def test_a_change_of_place_is_seen_and_named(findings):
+    """The frame's float32 is measured: the truth, in a frame of its own, is the same there."""
     found = findings["offset"]
     assert found.frame_changed > 0.01
-    assert found.truth_changed > 0.01
     assert found.blame[0][1] > 0.01
-    assert "1e+06 m from the origin" in found.words
+    assert found.error > 1.05 * findings["plain"].error
 
 
-def test_the_reference_of_a_small_scene_is_not_trusted(findings):
-    """The path tracer's offset of 0.1 mm is a fifth of the ball's radius there."""
-    assert findings["small"].truth_changed > 0.01
-    assert "scale the scene up" in findings["small"].words
-    assert findings["large"].truth_changed < 1e-3
-    assert not findings["large"].words
+@pytest.mark.parametrize("name", ["depth-range", "offset", "small", "large"])
+def test_the_truth_is_the_same_everywhere_and_at_every_size(findings, name):
+    """A ray's offset of 2·10⁻⁴ of the scene moves the edge of the ball's shadow by 0.25 % of the ball, which covers a
+    tenth of the image: 2.5·10⁻⁴ of what is lit."""
+    assert findings[name].truth_changed < 1e-3
+    assert not findings[name].words
 
 
 def test_surfaces_in_one_place_have_no_truth(findings):
