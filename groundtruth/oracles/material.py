@@ -11,7 +11,7 @@ import numpy as np
 from lightmeter.groundtruth.surface import SurfacePoint
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.world import World
-from lightmeter.scenes.layers import COAT, layer_channels
+from lightmeter.scenes.layers import COAT, GLASS, layer_channels
 from lightmeter.scenes.points import SurfacePoints
 
 TERM = "material"
@@ -28,7 +28,8 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
     lead = points.shape.shape
     flat = points.at(np.ones(lead, bool))
     where = np.flatnonzero(flat.shape >= 0)
-    names = (*SCALARS, *VECTORS, *layer_channels(world.scene))
+    layers = [name for name in layer_channels(world.scene) if name not in GLASS]  # no texture changes a solid
+    names = (*SCALARS, *VECTORS, *layers)
     exact = {name: np.zeros((*flat.shape.shape, *_extent(name)), np.float32) for name in names}
     exact["emission"][flat.shape < 0] = flat.emission[flat.shape < 0]
     if len(where):

@@ -1,4 +1,4 @@
-"""A scene a thousand kilometres from the origin is judged as any other; where its truth is wrong, nothing is decided."""
+"""A scene a thousand kilometres from the origin is judged as any other; with a wrong truth nothing is decided."""
 
 import pytest
 
