@@ -44,10 +44,8 @@ def _planes() -> np.ndarray:
     def facets(angles: np.ndarray, slope: float, through: tuple[float, float], up: bool, turn: float = 0.0):
         """Facets about the axis, each through a point (radius, height) of its own azimuth, turned by `turn`."""
         sign = 1.0 if up else -1.0
-        normals = np.stack(
-            [np.sin(slope) * np.cos(angles), np.full_like(angles, sign * np.cos(slope)), np.sin(slope) * np.sin(angles)],
-            axis=1,
-        )
+        across, along = np.sin(slope), np.full_like(angles, sign * np.cos(slope))
+        normals = np.stack([across * np.cos(angles), along, across * np.sin(angles)], axis=1)
         point = through[0] * np.cos(turn) * np.sin(slope) + sign * through[1] * np.cos(slope)
         return np.column_stack([normals, np.full(len(angles), point)])
 
