@@ -9,6 +9,7 @@ from lightmeter.groundtruth.bsdf import MASK, SceneBSDF, kind
 from lightmeter.groundtruth.emitters import SurfaceEmitter
 from lightmeter.groundtruth.environment_map import MapEmitter
 from lightmeter.groundtruth.frame import WORLD, Frame
+from lightmeter.groundtruth.glass import GlassBSDF
 from lightmeter.groundtruth.multiscatter_bsdf import MultiscatterBSDF
 from lightmeter.groundtruth.scattering import MULTISCATTER, SINGLE, check_scattering
 from lightmeter.groundtruth.surface import ALL_SLOTS
@@ -62,10 +63,11 @@ class World:
         frame = Frame.of(scene) if frame is None else frame
         scene = frame.scene(scene)
         bsdf_of = MultiscatterBSDF if scattering == MULTISCATTER else SceneBSDF
-        bsdfs = {k: bsdf_of(k) for k in dict.fromkeys(map(kind, scene.shapes))}
+        kinds = dict.fromkeys(map(_kind, scene.shapes))
+        bsdfs = {k: GlassBSDF(*k) if isinstance(k, tuple) else bsdf_of(k) for k in kinds}
         lamps = {light.shape: emitters.area(scene.shapes[light.shape]) for light in scene.area_lights}
         meshes = tuple(
-            _mesh(shape, bsdfs[kind(shape)], lamps.get(index)) if len(shape.mesh.triangles) else None
+            _mesh(shape, bsdfs[_kind(shape)], lamps.get(index)) if len(shape.mesh.triangles) else None
             for index, shape in enumerate(scene.shapes)
         )
         numbers = [None if mesh is None else _registry_number(mesh) for mesh in meshes]
@@ -119,6 +121,12 @@ class World:
         positions = self.scene.shapes[light.shape].world.positions.astype(np.float64)
         spread = np.linalg.svd(positions - positions.mean(axis=0), compute_uv=False)
         return len(spread) < 3 or bool(spread[2] <= 1e-6 * spread[0])
+
+
+def _kind(shape: Shape) -> frozenset[str] | tuple:
+    """What tells one BSDF instance from another: for solids their index and absorption."""
+    material = shape.material
+    return (material.ior, material.absorption) if material.is_glass else kind(shape)
 
 
 def _surroundings(scene: Scene):

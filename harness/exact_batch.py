@@ -16,6 +16,7 @@ class ExactBatch:
         direct, shadowed: per light, B without and A with its shadow.
         environment, environment_shadowed: B and A; None where the scene has no environment.
         indirect: None where the scene has none.
+        transmission: likewise.
     """
 
     emission: np.ndarray
@@ -24,18 +25,19 @@ class ExactBatch:
     environment: np.ndarray | None = None
     environment_shadowed: np.ndarray | None = None
     indirect: np.ndarray | None = None
+    transmission: np.ndarray | None = None
 
     @property
     def bytes(self) -> int:
         """What it takes in memory."""
-        rest = (self.environment, self.environment_shadowed, self.indirect)
+        rest = (self.environment, self.environment_shadowed, self.indirect, self.transmission)
         images = (self.emission, *self.direct.values(), *self.shadowed.values(), *rest)
         return sum(image.nbytes for image in images if image is not None)
 
     def composition(self) -> np.ndarray:
         """(H, W, 3) float32: the image with every term exact."""
         total = self.emission.astype(np.float64)
-        for value in (*self.shadowed.values(), self.environment_shadowed, self.indirect):
+        for value in (*self.shadowed.values(), self.environment_shadowed, self.indirect, self.transmission):
             if value is not None:
                 total += value
         return mean_samples(total).astype(np.float32)

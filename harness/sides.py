@@ -213,9 +213,9 @@ def contribution(plan: Plan, name: str, captures: list[Capture], exact: ExactBat
         elif term == "environment_visibility":
             tested += exact.environment * captured(lambda c: c.frame["environment_visibility"])
             truth += exact.environment_shadowed
-        elif term == "indirect":
-            tested += captured(lambda c: c.frame["indirect"])
-            truth += exact.indirect
+        elif term in ("indirect", "transmission"):
+            tested += captured(lambda c: c.frame[term])
+            truth += getattr(exact, term)
 
     for step in plan.steps:
         if step.effect == name:

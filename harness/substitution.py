@@ -27,7 +27,7 @@ class Slot:
     """A summand of the composition.
 
     Attributes:
-        term: "direct", "environment" or "indirect".
+        term: "direct", "environment", "indirect" or "transmission".
         players: whose exactness it depends on: the radiance's and, where it has a visibility, that one's.
         lights: for "direct": indices into `Scene.all_lights`.
     """
@@ -70,7 +70,8 @@ def slots(plan: Plan) -> tuple[Slot, ...]:
         for light in range(len(plan.scene.all_lights)):
             lights.setdefault(players("direct", light), []).append(light)
         found += [Slot("direct", names, tuple(those)) for names, those in lights.items()]
-    return (*found, *(Slot(term, players(term)) for term in ("environment", "indirect") if term not in missing))
+    whole = ("environment", "indirect", "transmission")
+    return (*found, *(Slot(term, players(term)) for term in whole if term not in missing))
 
 
 def players(plan: Plan) -> dict[str, tuple[str, ...]]:
@@ -142,7 +143,7 @@ def _transported(slot: Slot, light: int | None, exact: ExactBatch) -> np.ndarray
     """A itself: what arrives with radiance and visibility exact."""
     if slot.term == "direct":
         return exact.shadowed[light]
-    found = exact.environment_shadowed if slot.term == "environment" else exact.indirect
+    found = exact.environment_shadowed if slot.term == "environment" else getattr(exact, slot.term)
     assert found is not None, "the scene has what its slots are of"
     return found
 

@@ -243,8 +243,9 @@ class Truth:
                 shadowed[light], direct[light] = self._light(points, light, options)
         if there & {"environment", "environment_visibility"}:
             rest["environment_shadowed"], rest["environment"] = self._environment(points, options)
-        if "indirect" in there:
-            rest["indirect"] = self._oracle("indirect", points, **options)
+        for term in ("indirect", "transmission"):
+            if term in there:
+                rest[term] = self._oracle(term, points, **options)
         return ExactBatch(points.emission, direct, shadowed, **rest)
 
     def is_sampled(self, light: int) -> bool:

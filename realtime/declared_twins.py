@@ -6,6 +6,7 @@ from pathlib import Path
 from .ambient.twin import TWINS as AMBIENT_TWINS
 from .discovery import effects
 from .environments.twin import TWINS as ENVIRONMENT_TWINS
+from .glass.twin import TWINS as GLASS_TWINS
 from .packing_twins import TWINS as PACKING_TWINS
 from .pictures.twin import TWINS as PICTURE_TWINS
 from .reflections.twin import TWINS as REFLECTION_TWINS
@@ -25,6 +26,7 @@ def declared_twins() -> list[tuple[Path, Twin]]:
             *AMBIENT_TWINS,
             *ENVIRONMENT_TWINS,
             *PACKING_TWINS,
+            *GLASS_TWINS,
             *PICTURE_TWINS,
             *REFLECTION_TWINS,
         )

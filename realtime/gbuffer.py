@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.layers import COAT, GRAIN, LAYER_CHANNELS, SHEEN, layer_channels
+from lightmeter.scenes.layers import COAT, GLASS, GRAIN, LAYER_CHANNELS, SHEEN, layer_channels
 from lightmeter.scenes.model import Camera, Material, Scene, Texture, Vector
 from lightmeter.scenes.optics.sheen import albedo_table
 from lightmeter.scenes.points import SurfacePoints
@@ -19,7 +19,9 @@ from .projection import projection_matrix, view_matrix, viewer, world_from_pixel
 from .shaders import Source, source
 from .uniforms import Uniforms, bind, set_uniforms
 
-CHANNELS = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion", *COAT, *GRAIN, *SHEEN)
+BASE = ("position", "normal", "roughness", "base_color", "metallic", "specular", "occlusion")
+LAYERED = (*COAT, *GRAIN, *SHEEN, *GLASS)
+CHANNELS = (*BASE, *LAYERED)
 """What effects may read. A channel that is the same everywhere, or of a layer that no material has, costs nothing."""
 
 
@@ -38,6 +40,8 @@ PARTS: dict[str, tuple[str, slice | int]] = {
     "anisotropy_direction": ("grain", slice(3)),
     "sheen_color": ("sheen", slice(3)),
     "sheen_roughness": ("sheen", 3),
+    "absorption": ("glass", slice(3)),
+    "ior": ("glass", 3),
 }
 """Where in the attachments of floats each channel lies."""
 
@@ -99,7 +103,7 @@ class GBuffer:
     ) -> None:
         self._device, self._geometry, self._scene, self._size = device, geometry, scene, size
         self.constants = constant_channels(scene)
-        self.channels = channels - (frozenset((*COAT, *GRAIN, *SHEEN)) - set(layer_channels(scene)))
+        self.channels = channels - (frozenset(LAYERED) - set(layer_channels(scene)))
         varying = self.channels - set(self.constants)
         possible = layout.attachments(stored or {})
         self._holding = [a for a in possible if "position" in a.channels or varying & set(a.channels)]
@@ -345,6 +349,8 @@ def material_uniforms(material: Material) -> dict[str, object]:
         "sheen_roughness_factor": material.sheen_roughness,
         "anisotropy_factor": material.anisotropy,
         "grain_turn": np.array([np.cos(material.anisotropy_rotation), np.sin(material.anisotropy_rotation)]),
+        "absorption": np.array(material.absorption),
+        "ior": material.ior,
         "clearcoat_factor": material.clearcoat,
         "clearcoat_roughness_factor": material.clearcoat_roughness,
         "clearcoat_normal_scale": material.clearcoat_normal_scale,

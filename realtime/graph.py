@@ -15,7 +15,8 @@ FACTORS = {"direct": "visibility", "environment": "environment_visibility"}
 """Which visibility a radiance is multiplied with."""
 
 DISPLAY_TERMS = tuple(term.name for term in TERMS.values() if term.scope == "display")
-DRAWN_TERMS = ("direct", "visibility", "environment", "environment_visibility", "indirect", *DISPLAY_TERMS)
+FRAME_TERMS = ("environment", "environment_visibility", "indirect", "transmission")
+DRAWN_TERMS = ("direct", "visibility", *FRAME_TERMS, *DISPLAY_TERMS)
 
 
 @dataclass(frozen=True)
@@ -257,6 +258,8 @@ def _steps(
             steps.append(Step(environment.name, ("environment",), factor))
         if indirect:
             steps.append(Step(indirect.name, ("indirect",), ("scattered",) if indirect.reads_scattered else ()))
+    if transmission := first("transmission"):
+        steps.append(Step(transmission.name, ("transmission",)))
     image = "radiance"
     for term in DISPLAY_TERMS:
         for effect in _of_display(candidates, term, choice) if first(term) else ():

@@ -7,7 +7,7 @@ normal, base_color, and "parameters" for the four scalars of the material.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from lightmeter.scenes.layers import COAT, GRAIN, SHEEN
+from lightmeter.scenes.layers import COAT, GLASS, GRAIN, SHEEN
 from lightmeter.scenes.model import Camera
 
 BYTES = {"f4": 4, "f2": 2, "f1": 1, "nu2": 2}
@@ -48,7 +48,8 @@ COATED = Attachment("clearcoat_factors", COAT[:2], "vec2(clearcoat, clearcoat_ro
 COAT_NORMAL = Attachment("clearcoat_normal", COAT[2:], "vec4(clearcoat_normal, 0.0)")
 GRAINED = Attachment("grain", GRAIN, "vec4(anisotropy_direction, anisotropy)")
 SHEENED = Attachment("sheen", SHEEN, "vec4(sheen_color, sheen_roughness)")
-LAYERS = (COATED, COAT_NORMAL, GRAINED, SHEENED)
+GLASSY = Attachment("glass", GLASS, "vec4(absorption, ior)")
+LAYERS = (COATED, COAT_NORMAL, GRAINED, SHEENED, GLASSY)
 EMISSION = Attachment("radiance", (), "vec4(emission, 0.0)")
 # Whole numbers that float32 holds exactly: the triangle's number in two halves of 12 bits and more.
 IDENTITY = Attachment("identity", (), "vec4(shape, gl_PrimitiveID & 4095, gl_PrimitiveID >> 12, 0.0)")

@@ -26,8 +26,9 @@ def missing_terms(scene: Scene) -> dict[str, str]:
     """The terms that the scene does not have, each with the reason."""
     missing = {
         "surface": "every shape is rendered from the same triangles on both sides",
-        "transmission": "the scene has no dielectric solids",
     }
+    if not any(shape.material.is_glass for shape in scene.shapes):
+        missing["transmission"] = "the scene has no dielectric solids"
     if scene.camera.aperture is None:
         missing["glare"] = "the camera has no aperture to diffract at"
     if scene.camera.metering is None:

@@ -5,8 +5,9 @@ from .model import Scene
 COAT = ("clearcoat", "clearcoat_roughness", "clearcoat_normal")
 GRAIN = ("anisotropy", "anisotropy_direction")
 SHEEN = ("sheen_color", "sheen_roughness")
-LAYER_CHANNELS = {"coat": COAT, "grain": GRAIN, "sheen": SHEEN}
-"""The parameters of each layer, as `SurfacePoints` names them."""
+GLASS = ("absorption", "ior")
+LAYER_CHANNELS = {"coat": COAT, "grain": GRAIN, "sheen": SHEEN, "glass": GLASS}
+"""The parameters of each layer, and of a solid's inside, as `SurfacePoints` names them."""
 
 
 def layer_channels(scene: Scene) -> tuple[str, ...]:
@@ -20,4 +21,6 @@ def layer_channels(scene: Scene) -> tuple[str, ...]:
         found += GRAIN
     if any("sheen" in material.layers for material in materials):
         found += SHEEN
+    if any(material.is_glass for material in materials):
+        found += GLASS
     return found

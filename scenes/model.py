@@ -120,7 +120,13 @@ class Material:
         anisotropy_texture: the grain's direction in red and green (0…1 stands for −1…1), a factor in blue.
         sheen_color, sheen_roughness: KHR_materials_sheen, 0…1; black: there is no sheen.
         sheen_color_texture, sheen_roughness_texture: factors in red, green and blue (sRGB-encoded), and in alpha.
+        ior: index of refraction of the solid that the surface bounds, above 1; 0: it is opaque. Such a surface is
+            smooth, its front outside; it mirrors and refracts, and is otherwise black: base colour and specular are 0.
+        absorption: of the solid's inside, 1/m, RGB.
         left_out: extensions of its file that are not read and would change how it looks.
+
+    Raises:
+        ValueError: a solid's surface would scatter besides.
     """
 
     name: str = "material"
@@ -153,7 +159,18 @@ class Material:
     sheen_roughness: float = 0.0
     sheen_color_texture: Texture | None = None
     sheen_roughness_texture: Texture | None = None
+    ior: float = 0.0
+    absorption: Vector = (0.0, 0.0, 0.0)
     left_out: tuple[str, ...] = ()
+
+    def __post_init__(self):
+        if self.is_glass and (max(self.base_color) > 0 or self.specular > 0 or self.layers):
+            raise ValueError("the surface of a dielectric solid has no base colour, no specular and no layers")
+
+    @property
+    def is_glass(self) -> bool:
+        """Whether it bounds a dielectric solid."""
+        return self.ior > 0
 
     @property
     def textures(self) -> dict[str, Texture]:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lightmeter.scenes.model import DirectionalLight, PointLight, Scene, SpotLight
+from lightmeter.scenes.model import DirectionalLight, Material, PointLight, Scene, SpotLight
 
 
 def moved(scene: Scene, by: np.ndarray) -> Scene:
@@ -42,7 +42,10 @@ def scaled(scene: Scene, by: float) -> Scene:
     matrix[:3, 3] *= by
     return replace(
         scene,
-        shapes=tuple(replace(shape, matrix=larger @ shape.matrix) for shape in scene.shapes),
+        shapes=tuple(
+            replace(shape, matrix=larger @ shape.matrix, material=_scaled_inside(shape.material, by))
+            for shape in scene.shapes
+        ),
         camera=replace(
             camera,
             matrix=matrix,
@@ -52,6 +55,14 @@ def scaled(scene: Scene, by: float) -> Scene:
         ),
         lights=lights,
     )
+
+
+def _scaled_inside(material: Material, by: float) -> Material:
+    """What a solid absorbs over a length that is multiplied."""
+    if not max(material.absorption) > 0:
+        return material
+    red, green, blue = (value / by for value in material.absorption)
+    return replace(material, absorption=(red, green, blue))
 
 
 def _scaled_light(light: PointLight | SpotLight, by: float) -> PointLight | SpotLight:

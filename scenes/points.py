@@ -24,6 +24,8 @@ class SurfacePoints:
         anisotropy: (H, W) strength, 0…1; None where no material has a grain.
         anisotropy_direction: (H, W, 3) unit, along the grain, across `normal`; None likewise.
         sheen_color, sheen_roughness: (H, W, 3) and (H, W), 0…1; None where no material has a sheen.
+        ior: (H, W) of the solid that the surface bounds, 0 where it is opaque; None where no material is glass.
+        absorption: (H, W, 3) of its inside, 1/m; None likewise.
     """
 
     position: np.ndarray
@@ -44,6 +46,8 @@ class SurfacePoints:
     anisotropy_direction: np.ndarray | None = None
     sheen_color: np.ndarray | None = None
     sheen_roughness: np.ndarray | None = None
+    absorption: np.ndarray | None = None
+    ior: np.ndarray | None = None
 
     @property
     def hit(self) -> np.ndarray:

@@ -30,7 +30,7 @@ TERMS = {
         Term("environment", "unoccluded radiance reflected from the environment", "frame"),
         Term("environment_visibility", "occluded over unoccluded environment", "frame", 1.0),
         Term("indirect", "radiance scattered by other surfaces, one bounce or more", "frame"),
-        Term("transmission", "radiance through dielectric solids", "frame"),
+        Term("transmission", "radiance mirrored by and refracted through dielectric solids", "frame"),
         Term("coverage", "box filter over the pixel", "gbuffer"),
         Term("glare", "image convolved with the aperture's diffraction", "display"),
         Term("exposure", "the metering rule on the exact luminances", "display"),

@@ -32,8 +32,9 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
     exact = {name: np.zeros((*flat.shape.shape, *_extent(name)), np.float32) for name in names}
     exact["emission"][flat.shape < 0] = flat.emission[flat.shape < 0]
     if len(where):
-        for name, value in _read(world, flat, where).items():
-            exact[name][where] = value
+        found = _read(world, flat, where) | _inside(world, flat.shape[where])
+        for name in names:
+            exact[name][where] = found[name]
     return replace(points, **{name: value.reshape(*lead, *_extent(name)) for name, value in exact.items()})
 
 
@@ -75,8 +76,16 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
     return {name: np.broadcast_to(value.numpy().T, (len(where), *_extent(name))) for name, value in found.items()}
 
 
+def _inside(world: World, shape: np.ndarray) -> dict[str, np.ndarray]:
+    """Of dielectric solids: no texture changes them."""
+    materials = [one.material for one in world.scene.shapes]
+    index = np.array([material.ior for material in materials])
+    absorption = np.array([material.absorption for material in materials]) * world.frame.scale
+    return {"ior": index[shape], "absorption": absorption[shape]}
+
+
 def _extent(name: str) -> tuple[int, ...]:
-    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction", "sheen_color") else ()
+    return (3,) if name in (*VECTORS, "clearcoat_normal", "anisotropy_direction", "sheen_color", "absorption") else ()
 
 
 def _barycentric(corners: SurfacePoint, position):

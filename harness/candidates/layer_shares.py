@@ -69,7 +69,7 @@ def _slots(centres: Centres) -> tuple[Slot, ...]:
     lights = tuple(range(len(scene.all_lights)))
     return tuple(
         Slot(term, players(term), lights if term == "direct" else ())
-        for term in ("direct", "environment", "indirect")
+        for term in ("direct", "environment", "indirect", "transmission")
         if term not in missing
     )
 

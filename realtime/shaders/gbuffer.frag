@@ -27,6 +27,10 @@ uniform vec2 grain_turn; // cosine and sine
 uniform vec3 sheen_color_factor;
 uniform float sheen_roughness_factor;
 #endif
+#ifdef LAYER_GLASS
+uniform vec3 absorption;
+uniform float ior;
+#endif
 uniform int shape;
 in vec3 world_position;
 in vec3 vertex_normal;

@@ -8,6 +8,7 @@ uniform sampler2D gbuffer_normal_roughness, gbuffer_normal, gbuffer_octahedral_n
 uniform sampler2D gbuffer_base_color_metallic, gbuffer_base_color, gbuffer_metallic;
 uniform sampler2D gbuffer_specular_occlusion, gbuffer_parameters;
 uniform sampler2D gbuffer_clearcoat_factors, gbuffer_clearcoat_normal, gbuffer_grain, gbuffer_sheen;
+uniform sampler2D gbuffer_glass;
 uniform vec4 viewer; // xyz: position, w = 1; or the direction to the viewer, w = 0
 
 struct Surface {
@@ -26,6 +27,10 @@ struct Surface {
 #ifdef LAYER_GRAIN
     float anisotropy;
     vec3 anisotropy_direction;
+#endif
+#ifdef LAYER_GLASS
+    vec3 absorption; // 1/m
+    float ior; // 0 where it is opaque
 #endif
 #ifdef LAYER_COAT
     float clearcoat;
@@ -120,6 +125,11 @@ bool fetch_surface(ivec2 pixel, out Surface surface) {
     vec4 sheen = texelFetch(gbuffer_sheen, pixel, 0);
     surface.sheen_color = sheen.rgb;
     surface.sheen_roughness = sheen.a;
+#endif
+#ifdef GBUFFER_GLASS
+    vec4 glass = texelFetch(gbuffer_glass, pixel, 0);
+    surface.absorption = glass.rgb;
+    surface.ior = glass.a;
 #endif
 #ifdef CONSTANT_BASE_COLOR
     surface.base_color = CONSTANT_BASE_COLOR;

@@ -1,6 +1,7 @@
 """Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
 _anisotropy, _sheen)."""
 
+import math
 from typing import Any
 
 from ..errors import SceneError
@@ -11,6 +12,7 @@ from .textures import Textures
 EMISSIVE_STRENGTH, SPECULAR = "KHR_materials_emissive_strength", "KHR_materials_specular"
 CLEARCOAT, ANISOTROPY = "KHR_materials_clearcoat", "KHR_materials_anisotropy"
 SHEEN = "KHR_materials_sheen"
+TRANSMISSION, IOR, VOLUME = "KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"
 CODING = {True: "sRGB", False: "linear"}
 COLOURED = ("base_color", "emissive", "sheen_color")
 """The textures whose colours glTF takes for sRGB-encoded; the others are linear."""
@@ -88,10 +90,21 @@ class Materials:
             extensions[ANISOTROPY] = _grain(material, info)
         if "sheen" in material.layers:
             extensions[SHEEN] = _sheen(material, info)
+        if material.is_glass:
+            pbr |= {"baseColorFactor": [1.0, 1.0, 1.0, 1.0], "roughnessFactor": 0.0}
+            extensions = _solid(material)
         if extensions:
             content["extensions"] = extensions
             self.extensions |= set(extensions)
         return content
+
+
+def _solid(material: Material) -> dict[str, dict[str, Any]]:
+    """KHR_materials_transmission, _ior and _volume of a dielectric solid; path tracers take any thickness above 0."""
+    volume: dict[str, Any] = {"thicknessFactor": 1.0}
+    if max(material.absorption) > 0:
+        volume |= {"attenuationDistance": 1.0, "attenuationColor": [math.exp(-value) for value in material.absorption]}
+    return {TRANSMISSION: {"transmissionFactor": 1.0}, IOR: {"ior": material.ior}, VOLUME: volume}
 
 
 def _coat(material: Material, info: dict[str, dict[str, Any]]) -> dict[str, Any]:

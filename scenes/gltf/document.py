@@ -3,6 +3,7 @@
 Other properties are let through; extensions are looked up where they are supported and listed elsewhere.
 """
 
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
@@ -279,6 +280,28 @@ class Sheen(Part):
     color_texture: TextureInfo | None = Field(None, alias="sheenColorTexture")
     roughness: Fraction = Field(0.0, alias="sheenRoughnessFactor")
     roughness_texture: TextureInfo | None = Field(None, alias="sheenRoughnessTexture")
+
+
+class Transmission(Part):
+    """KHR_materials_transmission."""
+
+    factor: Fraction = Field(0.0, alias="transmissionFactor")
+    texture: TextureInfo | None = Field(None, alias="transmissionTexture")
+
+
+class Ior(Part):
+    """KHR_materials_ior."""
+
+    ior: NonNegative = 1.5
+
+
+class Volume(Part):
+    """KHR_materials_volume."""
+
+    thickness: NonNegative = Field(0.0, alias="thicknessFactor")
+    thickness_texture: TextureInfo | None = Field(None, alias="thicknessTexture")
+    attenuation_distance: Annotated[float, Field(strict=True, gt=0)] = Field(math.inf, alias="attenuationDistance")
+    attenuation_color: tuple[Fraction, Fraction, Fraction] = Field((1.0, 1.0, 1.0), alias="attenuationColor")
 
 
 class Cone(Part):

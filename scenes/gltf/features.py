@@ -10,8 +10,11 @@ READ = {
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
     "KHR_materials_sheen",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 }
@@ -22,13 +25,10 @@ HARMLESS = {
 CONSEQUENCES = {
     "EXT_mesh_gpu_instancing": "instances are left out of both pictures",
     "KHR_materials_dispersion": "colours are not dispersed in either picture",
-    "KHR_materials_ior": "the index of refraction is 1.5 in both pictures",
     "KHR_materials_iridescence": "the thin film is left out of both pictures",
     "KHR_materials_pbrSpecularGlossiness": "the metallic-roughness values beside it are used in both pictures",
-    "KHR_materials_transmission": "what should be transparent is opaque in both pictures",
     "KHR_materials_unlit": "its shapes are lit like any other in both pictures",
     "KHR_materials_variants": "the default variant is used",
-    "KHR_materials_volume": "volumes are left out of both pictures",
     "KHR_texture_basisu": "an image in KTX2 is left out unless there is a PNG or JPEG beside it",
     "EXT_texture_webp": "an image in WebP is left out unless there is a PNG or JPEG beside it",
 }

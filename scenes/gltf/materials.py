@@ -1,8 +1,9 @@
-"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat,
-_anisotropy, _sheen)."""
+"""Materials (glTF 2.0, section 3.9; KHR_materials_emissive_strength, _specular, _clearcoat, _anisotropy, _sheen,
+_transmission with _volume and _ior)."""
 
 from typing import Any
 
+from lightmeter.scenes.glass import glass
 from lightmeter.scenes.gltf import document
 from lightmeter.scenes.gltf.features import HARMLESS, READ
 from lightmeter.scenes.gltf.source import Source
@@ -58,6 +59,8 @@ class Materials:
     def _material(self, part: document.Material, index: int) -> Material:
         source, read = self._source, self._textures.texture
         place = f"materials[{index}]"
+        if (solid := self._solid(part, place)) is not None:
+            return solid
         pbr = part.metallic_roughness
         base = f"{place}.pbrMetallicRoughness"
         strength = source.extension(part, "KHR_materials_emissive_strength", document.EmissiveStrength, place)
@@ -87,6 +90,37 @@ class Materials:
             **self._sheen(part, place),
             left_out=tuple(sorted(set(part.extensions) - READ - set(HARMLESS))),
         )
+
+    def _solid(self, part: document.Material, place: str) -> Material | None:
+        """The material of a dielectric solid: all its light is transmitted, and it has an inside; else None."""
+        source, name = self._source, part.name or place
+        transmission = source.extension(part, "KHR_materials_transmission", document.Transmission, place)
+        volume = source.extension(part, "KHR_materials_volume", document.Volume, place)
+        index = source.extension(part, "KHR_materials_ior", document.Ior, place)
+        ior = index.ior if index else 1.5
+        if transmission is None or transmission.factor == 0:
+            if index is not None and ior != 1.5:
+                source.note(f"{name}: KHR_materials_ior is read of solids alone; its index is 1.5 in both pictures")
+            return None
+        reasons = {
+            "in part": transmission.factor < 1 or transmission.texture is not None,
+            "without an inside (KHR_materials_volume)": volume is None or volume.thickness == 0,
+            f"with an index of {ior:g}": ior <= 1,
+        }
+        if volume is None or any(reasons.values()):
+            why = next(words for words, holds in reasons.items() if holds)
+            source.note(f"{name}: what is transparent {why} is opaque in both pictures")
+            return None
+        pbr = part.metallic_roughness
+        if pbr.roughness > 0 or pbr.metallic_roughness_texture or part.normal_texture:
+            source.note(f"{name}: its surface is smooth in both pictures")
+        if pbr.base_color[:3] != (1, 1, 1) or pbr.base_color_texture:
+            source.note(f"{name}: its surface does not tint light in either picture, only its inside does")
+        color = volume.attenuation_color
+        if min(color) == 0:
+            source.note(f"{name}: attenuationColor has a 0, which no distance leaves; 1e-6 stands for it")
+        red, green, blue = (max(value, 1e-6) for value in color)
+        return glass(name, ior, (red, green, blue), volume.attenuation_distance)
 
     def _coat(self, part: document.Material, place: str) -> dict[str, Any]:
         """The parameters of a coat, where there is one: a factor of 0 disables the layer with its textures."""

@@ -14,6 +14,7 @@ from lightmeter.scenes.dressing import dressed
 from lightmeter.scenes.environments import BUILT_IN, built_in, environment_from
 from lightmeter.scenes.errors import SceneError, nearest, shown
 from lightmeter.scenes.files import inside, read_bytes
+from lightmeter.scenes.glass import glass
 from lightmeter.scenes.images import read_image
 from lightmeter.scenes.metering import Metering
 from lightmeter.scenes.model import (
@@ -124,6 +125,9 @@ class Builder:
 
     def material(self, name: str, entry: entries.MaterialEntry, place: str) -> Material:
         values = {key: getattr(entry, key) for key in entries.MaterialEntry.model_fields}
+        tint, distance = values.pop("attenuation_color"), values.pop("attenuation_distance")
+        if values.pop("ior") is not None:
+            return glass(name, entry.ior, tint, distance)
         for key, value in values.items():
             if isinstance(value, entries.TextureEntry):
                 values[key] = self.texture(value, key in COLOURED, f"{place}.{key}")

@@ -119,6 +119,22 @@ class MaterialEntry(Strict):
     sheen_roughness: Fraction = 0.0
     sheen_color_texture: TextureKey | None = None
     sheen_roughness_texture: TextureKey | None = Field(None, description="Factor in alpha.")
+    ior: Annotated[float, Field(strict=True, gt=1, le=10)] | None = Field(
+        None, description="Makes it a smooth dielectric solid of this index of refraction; opaque unless given."
+    )
+    attenuation_color: Reflectance = Field((1.0, 1.0, 1.0), description="What the solid leaves of white light…")
+    attenuation_distance: Length = Field(1.0, description="…over so many metres.")
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> "MaterialEntry":
+        opaque = {"base_color", "metallic", "roughness", "specular", "clearcoat", "anisotropy", "sheen_color"}
+        if self.ior is not None and (given := sorted(opaque & self.model_fields_set)):
+            raise ValueError(f"a dielectric solid (ior) has no {' or '.join(given)}: it only mirrors and refracts")
+        if self.ior is None and "attenuation_color" in self.model_fields_set:
+            raise ValueError("attenuation_color is of a dielectric solid: give its ior")
+        if min(self.attenuation_color) <= 0:
+            raise ValueError("attenuation_color must be above 0: no distance leaves nothing")
+        return self
 
 
 class MeteringEntry(Strict):

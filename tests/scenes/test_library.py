@@ -20,6 +20,8 @@ NAMES = (
     "control",
     "cornell-box",
     "corner",
+    "gem",
+    "glass-ball",
     "grid-sun",
     "lamps",
     "lattice",
@@ -48,7 +50,7 @@ def test_names_and_summaries():
 def test_every_scene_is_complete_and_inside_the_clipping_distances(name):
     scene = load(name)
     assert scene.name == name and scene.summary == library.summary(name) and scene.notes == ()
-    assert scene.all_lights and scene.max_depth == -1
+    assert (scene.all_lights or scene.environment) and scene.max_depth == -1
     forward = -scene.camera.matrix[:3, 2]
     for shape in scene.shapes:
         depth = (shape.world.positions - scene.camera.position) @ forward
