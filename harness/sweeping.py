@@ -202,6 +202,8 @@ class Sweeping:
         notes = [
             f"Times of the real-time renderer are {first.method}, the median of {first.frame.frames} frames in "
             f"{len(next(iter(self._measured.values()))[0].recordings)} rounds over all settings.",
+            "On the Pareto front is what is faster than every better setting there by more than the spreads of the two "
+            "times together.",
             "An effect's own error is that of the frame if all else were exact (RMSE); FLIP is of its buffer alone.",
         ]
         notes += sorted({t.doubt for t in times if t.doubt})

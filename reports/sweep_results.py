@@ -156,7 +156,12 @@ def ranked(swept: SweptEffect, curve: Sequence[CurvePoint]) -> SweptEffect:
 def best(swept: SweptEffect, view: str, metric: str) -> Setting | None:
     """The setting of the least error; the faster of equals. None where none has a finite one."""
     on_front = [s for s in swept.settings if s.standing(view).front.get(metric)]
-    return min(on_front, key=lambda s: s.standing(view).metrics[metric].value, default=None)
+
+    def rank(setting: Setting) -> tuple[float, float]:
+        standing = setting.standing(view)
+        return standing.metrics[metric].value, standing.time_ms.median
+
+    return min(on_front, key=rank, default=None)
 
 
 def curve_of(points: Sequence[CurvePoint], metric: str) -> list[tuple[float, float]]:
@@ -165,7 +170,8 @@ def curve_of(points: Sequence[CurvePoint], metric: str) -> list[tuple[float, flo
 
 
 def _ranked(standings: Sequence[Standing]) -> list[Standing]:
-    fronts = {m: pareto_front([(s.time_ms.median, s.metrics[m].value) for s in standings]) for m in METRICS}
+    spreads = [s.time_ms.mad for s in standings]
+    fronts = {m: pareto_front([(s.time_ms.median, s.metrics[m].value) for s in standings], spreads) for m in METRICS}
     return [
         replace(standing, front={metric: front[index] for metric, front in fronts.items()})
         for index, standing in enumerate(standings)
