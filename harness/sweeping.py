@@ -1,7 +1,10 @@
 """Error against run time: every setting of an effect measured for both, and the path tracer beside them."""
 
-from collections.abc import Mapping, Sequence
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import gather
@@ -9,6 +12,7 @@ from lightmeter.candidates.judging import judge
 from lightmeter.convergence import convergence
 from lightmeter.device import fingerprint
 from lightmeter.failures import UsageError
+from lightmeter.idle_knobs import idle_knobs
 from lightmeter.knob_words import Visit, declared, visits
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.measurement import Measurement
@@ -33,10 +37,16 @@ falls on all settings alike and does not look like a trend."""
 
 @dataclass(eq=False)
 class Measured:
-    """A setting as far as it has been measured."""
+    """A setting as far as it has been measured.
 
+    Attributes:
+        picture: equal for settings whose judged pictures are equal bit for bit.
+    """
+
+    effect: str
     plan: Plan
     visit: Visit
+    picture: bytes
     errors: Mapping[str, Mapping[str, Measurement]]
     recordings: list[Recording] = field(default_factory=list)
 
@@ -84,7 +94,7 @@ class Sweeping:
             self._report("settings", done, len(self._wanted))
             self._measured[name].append(self._measure(name, visit))
         self._report("settings", len(self._wanted), len(self._wanted))
-        everything = [item for listed in self._measured.values() for item in listed]
+        everything = [item for name in self._measured for item in self._kept(name)]
         total = (ROUNDS - 1) * len(everything)
         for number in range(ROUNDS - 1):
             # Forth and back, so that a steady drift cancels.
@@ -92,7 +102,7 @@ class Sweeping:
             for done, item in enumerate(order):
                 self._report("times", number * len(everything) + done, total)
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
-                item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP))
+                item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP, item.effect))
         self._report("times", total, total)
         for point in convergence(self._truth, self._display, self._goal(), self._curve_seconds, self._report):
             self._curve.append(point)
@@ -121,7 +131,7 @@ class Sweeping:
         """What was found so far."""
         reference = self._truth.reference
         times = [summarise(item.recordings) for listed in self._measured.values() for item in listed]
-        swept = [self._swept(name, listed) for name, listed in self._measured.items() if listed]
+        swept = [self._swept(name) for name, listed in self._measured.items() if listed]
         return found.Sweep(
             schema=found.SCHEMA,
             scene=self._truth.scene.name,
@@ -153,7 +163,8 @@ class Sweeping:
         sides = {"effect": self._own_sides(renderer, name), "frame": whole}
         questions = {view: Question(found.METRICS, side) for view, side in sides.items()}
         errors = answers(questions, self._display, silent)
-        return Measured(plan, visit, errors, [renderer.record(FRAMES, WARM_UP)])
+        tested = (image for side in sides.values() for image in side.tested)
+        return Measured(name, plan, visit, _digest(tested), errors, [renderer.record(FRAMES, WARM_UP, name)])
 
     def _own_sides(self, renderer: Renderer, name: str) -> Sides:
         terms = renderer.plan.terms_of(name)
@@ -163,34 +174,55 @@ class Sweeping:
             return coverage_sides(renderer, self._truth, silent)
         return effect_sides(renderer, self._truth, silent, only=(name,))[name]
 
-    def _swept(self, name: str, listed: Sequence[Measured]) -> found.SweptEffect:
+    def _kept(self, name: str) -> list[Measured]:
+        """The settings of an effect but for those that an idle knob makes needless."""
+        listed, idle = self._measured[name], self._idle(name)
+        needless = {index for indices in idle.values() for index in indices}
+        return [item for index, item in enumerate(listed) if index not in needless]
+
+    def _idle(self, name: str) -> dict[str, list[int]]:
+        listed = self._measured[name]
+        return idle_knobs([item.visit for item in listed], [item.picture for item in listed])
+
+    def _swept(self, name: str) -> found.SweptEffect:
         declaration = self._plan.effects[name][0]
-        passes = has_passes(self._plan, name)
+        idle = self._idle(name)
         return found.SweptEffect(
             effect=name,
             terms=self._plan.terms_of(name),
-            own_time="its passes" if passes else "the whole frame",
+            own_time="its passes" if has_passes(self._plan, name) else "the whole frame",
             comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
-            settings=tuple(self._setting(name, item, passes) for item in listed),
+            settings=tuple(self._setting(item, idle) for item in self._kept(name)),
+            idle=tuple(self._idle_knob(name, knob, indices) for knob, indices in idle.items()),
         )
 
-    def _setting(self, name: str, item: Measured, passes: bool) -> found.Setting:
-        times = summarise(item.recordings)
-        own = times.of(name) if passes else times.frame
+    def _setting(self, item: Measured, idle: Iterable[str]) -> found.Setting:
+        varied = item.visit.varied
         return found.Setting(
             knobs=dict(item.visit.knobs),
-            varied=item.visit.varied,
-            current=item.visit.knobs == self._plan.effects[name][1],
-            effect=found.Standing(_timing(own), item.errors["effect"]),
-            frame=found.Standing(_timing(times.frame), item.errors["frame"]),
+            varied=tuple(knob for knob in varied if knob not in idle) or varied,
+            current=item.visit.knobs == self._plan.effects[item.effect][1],
+            effect=found.Standing(_timing(self._own_time(item)), item.errors["effect"]),
+            frame=found.Standing(_timing(summarise(item.recordings).frame), item.errors["frame"]),
         )
+
+    def _idle_knob(self, name: str, knob: str, needless: Sequence[int]) -> found.IdleKnob:
+        items = [self._measured[name][index] for index in needless]
+        times = [self._own_time(item).median for item in items]
+        values = dict.fromkeys(item.visit.knobs[knob] for item in items)
+        return found.IdleKnob(knob, tuple(values), min(times), max(times))
+
+    def _own_time(self, item: Measured) -> Time:
+        """Of an effect's passes, or of the frame where it has none."""
+        times = summarise(item.recordings)
+        own = times.of(item.effect) if has_passes(self._plan, item.effect) else None
+        return own or times.frame
 
     def _goal(self) -> dict[str, float]:
         """The least error that the path tracer's is held against, by metric."""
         standings = [
             setting.standing(view)
-            for name, listed in self._measured.items()
-            for swept in [self._swept(name, listed)]
+            for swept in map(self._swept, self._measured)
             for setting in swept.settings
             for view in found.VIEWS
             if swept.comparable or view == "frame"
@@ -257,6 +289,13 @@ def _absent(scene: Scene, choice: Choice, plan: Plan, name: str) -> str:
     return message + (f"; `--use {name}` prefers it" if name in preferred.effects else "")
 
 
-def _timing(time: Time | None) -> outcome.Timing:
-    assert time is not None
+def _digest(images: Iterable[np.ndarray]) -> bytes:
+    """Equal for images that are equal bit for bit."""
+    state = hashlib.blake2b(digest_size=16)
+    for image in images:
+        state.update(np.ascontiguousarray(image))
+    return state.digest()
+
+
+def _timing(time: Time) -> outcome.Timing:
     return outcome.Timing(time.median, time.mad, time.frames)

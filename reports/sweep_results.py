@@ -65,6 +65,21 @@ class Setting:
 
 
 @dataclass(frozen=True)
+class IdleKnob:
+    """A knob that makes no difference to what is judged, bit for bit.
+
+    Attributes:
+        values: those that were tried beside the settings that are listed.
+        least_ms, most_ms: what the effect took with them.
+    """
+
+    knob: str
+    values: tuple[Any, ...]
+    least_ms: float
+    most_ms: float
+
+
+@dataclass(frozen=True)
 class SweptEffect:
     """An effect's settings.
 
@@ -74,6 +89,7 @@ class SweptEffect:
         own_time: what its own time is: "its passes", or "the whole frame" where it has none of its own.
         comparable: whether its own error is one of radiance, as the path tracer's is.
         settings: in the order they were asked for.
+        idle: knobs that were varied and have no settings of their own.
     """
 
     effect: str
@@ -81,6 +97,7 @@ class SweptEffect:
     own_time: str
     comparable: bool
     settings: tuple[Setting, ...]
+    idle: tuple[IdleKnob, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.results import Timing
 from lightmeter.reports.significant import show_measurement, show_number, show_value
-from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Standing, Sweep, SweptEffect, best
+from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Standing, Sweep, SweptEffect, best, show_knob
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -27,6 +27,7 @@ def sweep_tables(sweep: Sweep) -> Group:
         for view in VIEWS:
             parts.append(_table(swept, view))
             parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
+        parts += [Text(sentence) for sentence in idle_sentences(swept)] + [Text()] * bool(swept.idle)
     if sweep.path_tracer:
         parts.append(_curve(sweep))
     if sweep.others:
@@ -50,6 +51,20 @@ def conclusions(swept: SweptEffect, view: str) -> list[str]:
         clause = crossing_clause(standing, metric)
         sentences.append(f"{text}; {clause}." if clause else f"{text}.")
     return sentences
+
+
+def idle_sentences(swept: SweptEffect) -> list[str]:
+    """For each knob that makes no difference a sentence."""
+    return [
+        f"No row for {idle.knob} ({', '.join(map(show_knob, idle.values))}): the same picture bit for bit, in "
+        f"{_between(idle.least_ms, idle.most_ms)} ms."
+        for idle in swept.idle
+    ]
+
+
+def _between(least: float, most: float) -> str:
+    numbers = dict.fromkeys((show_number(least), show_number(most)))
+    return " to ".join(numbers)
 
 
 def crossing(standing: Standing, metric: str) -> str:
