@@ -12,9 +12,12 @@ from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Other, Setting, 
 from lightmeter.reports.sweep_table import crossing_clause, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
-# symbol of its own beside its colour.
+# symbol of its own beside its colour: there are knobs enough in one effect for colours to come again.
 GROUP_COLOURS = ("#0072B2", "#E69F00", "#009E73", "#56B4E9", "#CC79A7")
-GROUP_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "star")
+GROUP_SYMBOLS = (
+    *("circle", "square", "diamond", "triangle-up", "star"),
+    *("triangle-down", "pentagon", "hourglass", "triangle-left", "star-square"),
+)
 PATH_TRACER = "#D55E00"
 INK = "ink"
 """Stands for the page's text colour, dark or light."""
@@ -37,6 +40,7 @@ def figure(
     if points:
         traces += [_curve(points, metric, floor), *_crossovers(listed, view, metric, floor)]
     traces += [_other(other, metric, floor) for other in shown]
+    traces.append(_names(listed, view, metric, floor))
     unit = next((s.standing(view).metrics[metric].unit for s in listed), "")
     of = swept.effect if view == "effect" else "the frame"
     time = swept.own_time if view == "effect" else "the frame"
@@ -116,9 +120,7 @@ def _hover(setting: Setting, view: str, metric: str) -> str:
 
 def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
     """A stair: what is reached at a time stays reached until the next setting of the front is affordable."""
-    on = sorted(
-        (s for s in listed if s.standing(view).front.get(metric)), key=lambda s: s.standing(view).time_ms.median
-    )
+    on = _on_front(listed, view, metric)
     return {
         "name": "Pareto front",
         "mode": "lines",
@@ -128,6 +130,29 @@ def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> d
         "opacity": 0.55,
         "hoverinfo": "skip",
     }
+
+
+def _names(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
+    """The front's settings by name: below them, where no other can be, and the fastest's inside the plot."""
+    on = _on_front(listed, view, metric)
+    return {
+        "name": "names",
+        "mode": "markers+text",
+        "x": [s.standing(view).time_ms.median for s in on],
+        "y": [max(s.standing(view).metrics[metric].value, floor) for s in on],
+        "text": [escape(s.label) for s in on],
+        "textposition": ["bottom right", *["bottom left"] * len(on)][: len(on)],
+        "textfont": {"size": 11, "color": INK},
+        "marker": {"size": 16, "opacity": 0},  # keeps the text off the symbol
+        "hoverinfo": "skip",
+        "showlegend": False,
+    }
+
+
+def _on_front(listed: Sequence[Setting], view: str, metric: str) -> list[Setting]:
+    """The front, the fastest first."""
+    on = [s for s in listed if s.standing(view).front.get(metric)]
+    return sorted(on, key=lambda s: s.standing(view).time_ms.median)
 
 
 def _current(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from lightmeter.reports.results_json import to_json
 from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
 from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Sweep, SweptEffect, to_csv
-from lightmeter.reports.sweep_table import conclusions, crossing, idle_sentences, show_time
+from lightmeter.reports.sweep_table import conclusions, crossing, remarks, show_time
 from lightmeter.reports.truth_words import truth_words
 
 
@@ -78,8 +78,7 @@ def _section(swept: SweptEffect) -> dict[str, Any]:
         for view in VIEWS
         for metric in METRICS
     ]
-    idle = idle_sentences(swept)
-    return {"name": swept.effect, "terms": ", ".join(swept.terms), "tables": tables, "idle": idle}
+    return {"name": swept.effect, "terms": ", ".join(swept.terms), "tables": tables, "remarks": remarks(swept)}
 
 
 def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:

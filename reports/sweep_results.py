@@ -5,7 +5,7 @@
 
 import csv
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -61,7 +61,7 @@ class Setting:
     @property
     def label(self) -> str:
         """What sets it apart: "resolution 512, filter hard"."""
-        return ", ".join(f"{name} {show_knob(self.knobs[name])}" for name in self.varied) or "current setting"
+        return _words(self.knobs, self.varied) or "current setting"
 
 
 @dataclass(frozen=True)
@@ -98,6 +98,12 @@ class SweptEffect:
     comparable: bool
     settings: tuple[Setting, ...]
     idle: tuple[IdleKnob, ...] = ()
+
+    @property
+    def here(self) -> str:
+        """What the current setting is, where others are told by how they differ: "resolution 1024, bias 0.5"."""
+        varied = dict.fromkeys(name for setting in self.settings for name in setting.varied)
+        return next((_words(s.knobs, varied) for s in self.settings if s.current and not s.varied), "")
 
 
 @dataclass(frozen=True)
@@ -155,6 +161,10 @@ def show_knob(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _words(knobs: Mapping[str, Any], names: Iterable[str]) -> str:
+    return ", ".join(f"{name} {show_knob(knobs[name])}" for name in names)
 
 
 def ranked(swept: SweptEffect, curve: Sequence[CurvePoint]) -> SweptEffect:

@@ -27,7 +27,8 @@ def sweep_tables(sweep: Sweep) -> Group:
         for view in VIEWS:
             parts.append(_table(swept, view))
             parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
-        parts += [Text(sentence) for sentence in idle_sentences(swept)] + [Text()] * bool(swept.idle)
+        beside = remarks(swept)
+        parts += [Text(sentence) for sentence in beside] + [Text()] * bool(beside)
     if sweep.path_tracer:
         parts.append(_curve(sweep))
     if sweep.others:
@@ -53,9 +54,9 @@ def conclusions(swept: SweptEffect, view: str) -> list[str]:
     return sentences
 
 
-def idle_sentences(swept: SweptEffect) -> list[str]:
-    """For each knob that makes no difference a sentence."""
-    return [
+def remarks(swept: SweptEffect) -> list[str]:
+    """What the current setting is, and a sentence for each knob that makes no difference."""
+    return [f"Current setting: {swept.here}."] * bool(swept.here) + [
         f"No row for {idle.knob} ({', '.join(map(show_knob, idle.values))}): the same picture bit for bit, in "
         f"{_between(idle.least_ms, idle.most_ms)} ms."
         for idle in swept.idle

@@ -11,7 +11,7 @@ import pytest
 
 from lightmeter import sweeping
 from lightmeter.failures import UsageError
-from lightmeter.knob_words import visits
+from lightmeter.knob_words import declared, visits
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.mse import rmse
 from lightmeter.options import Budget
@@ -21,6 +21,7 @@ from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.effect import EffectError
 from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.realtime.renderer import Renderer
+from lightmeter.reports.sweep_figures import GROUP_COLOURS, GROUP_SYMBOLS
 from lightmeter.scenes.load import load
 from lightmeter.sides import coverage_sides, effect_sides
 from lightmeter.truth import Truth
@@ -34,6 +35,11 @@ def test_the_values_that_a_knob_declares_for_a_sweep_are_values_it_takes(name):
     for knob in effect(name).knobs:
         assert [knob.read(value, name) for value in knob.sweep] == list(knob.sweep)
         assert len(set(knob.sweep)) == len(knob.sweep)
+
+
+def test_no_two_knobs_of_an_effect_look_alike():
+    """Colours come again, symbols do not."""
+    assert len(set(GROUP_SYMBOLS)) >= max(len(declared(e)) for e in effects().values()) > len(GROUP_COLOURS)
 
 
 def test_a_star_goes_out_from_the_current_setting():

@@ -11,8 +11,9 @@ import pytest
 
 from lightmeter.reports.results_json import to_json
 from lightmeter.reports.sweep_figures import figure, groups
-from lightmeter.reports.sweep_page import write_sweep
+from lightmeter.reports.sweep_page import render_sweep, write_sweep
 from lightmeter.reports.sweep_results import best, to_csv
+from lightmeter.reports.sweep_table import remarks
 
 from .chromium_pipe import Page, find_chromium, open_chromium
 from .synthetic_sweep import make_sweep
@@ -85,6 +86,13 @@ def test_view_and_metric_can_be_chosen(page: Page) -> None:
 
 
 @needs_chromium
+def test_the_plot_s_buttons_cover_neither_plot_nor_legend(page: Page) -> None:
+    edge = "Math.min(...[...document.querySelectorAll('.plot .modebar')].map(b => b.getBoundingClientRect().left))"
+    ends = "Math.max(...[...document.querySelectorAll('.plot .nsewdrag, .plot .legend')]"
+    assert page.evaluate(edge) >= page.evaluate(ends + ".map(b => b.getBoundingClientRect().right))")
+
+
+@needs_chromium
 def test_code_values_have_no_path_tracer_beside_them(page: Page) -> None:
     choose(page, "effect", "rmse")
     assert trace(page, "path tracer", 0) and not trace(page, "path tracer", 1)
@@ -151,6 +159,24 @@ def same(cell: str, value) -> None:
 def test_a_grid_has_a_line_per_value_of_its_shortest_knob() -> None:
     settings = make_sweep().effects[0].settings
     assert {name: len(members) for name, members in groups(settings).items()} == {"filter hard": 2, "filter pcf3": 3}
+
+
+def test_the_front_s_settings_are_named_in_the_plot() -> None:
+    sweep = make_sweep()
+    shadow = sweep.effects[0]
+    names = next(d for d in figure(shadow, sweep.path_tracer, "effect", "rmse")["data"] if d["name"] == "names")
+    on_front = [s for s in shadow.settings if s.effect.front["rmse"]]
+    assert len(on_front) == 3
+    assert names["text"] == [s.label for s in on_front]
+    assert names["x"] == [s.effect.time_ms.median for s in on_front]
+
+
+def test_what_the_current_setting_is_can_be_read() -> None:
+    """Of a star; a grid names all values of each of its settings."""
+    shadow, tone = make_sweep().effects
+    assert "Current setting: scale 0.6." in remarks(tone)
+    assert not any("Current" in sentence for sentence in remarks(shadow))
+    assert "Current setting: scale 0.6." in render_sweep(make_sweep())
 
 
 def test_the_best_is_the_least_error_and_what_failed_is_not_drawn() -> None:
