@@ -104,8 +104,9 @@ class Sweeping:
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
                 item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP, item.effect))
         self._report("times", total, total)
-        for point in convergence(self._truth, self._display, self._goal(), self._curve_seconds, self._report):
-            self._curve.append(point)
+        if goal := self._goal():
+            for point in convergence(self._truth, self._display, goal, self._curve_seconds, self._report):
+                self._curve.append(point)
         self._complete = True
 
     def _see_others(self) -> None:
@@ -219,15 +220,10 @@ class Sweeping:
         return own or times.frame
 
     def _goal(self) -> dict[str, float]:
-        """The least error that the path tracer's is held against, by metric."""
-        standings = [
-            setting.standing(view)
-            for swept in map(self._swept, self._measured)
-            for setting in swept.settings
-            for view in found.VIEWS
-            if swept.comparable or view == "frame"
-        ]
-        return {metric: min(s.metrics[metric].value for s in standings) for metric in found.METRICS}
+        """The least error that the path tracer's is held against, by metric; empty where none is of radiance."""
+        swept = [one for one in map(self._swept, self._measured) if one.comparable]
+        standings = [s.standing(view) for one in swept for s in one.settings for view in one.views]
+        return {metric: min(s.metrics[metric].value for s in standings) for metric in found.METRICS if standings}
 
     def _notes(self, times: Sequence[Times]) -> list[str]:
         first = times[0]

@@ -8,7 +8,7 @@ from typing import Any
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.significant import show_measurement, show_number
-from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
+from lightmeter.reports.sweep_results import CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
 from lightmeter.reports.sweep_table import crossing_clause, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
@@ -28,8 +28,7 @@ def figure(
 ) -> dict[str, Any]:
     """One plot, as JSON for plotly: settings, their front, the path tracer's curve, the crossovers, other renderers."""
     listed = [s for s in swept.settings if math.isfinite(s.standing(view).metrics[metric].value)]
-    comparable = view == "frame" or swept.comparable
-    points = list(curve) if comparable else []
+    points = list(curve) if swept.comparable else []
     shown = [o for o in others if view == "frame" and o.time_ms and _finite(o.metrics.get(metric))]
     values = [s.standing(view).metrics[metric].value for s in listed]
     values += [p.metrics[metric].value for p in [*points, *shown]]
@@ -270,5 +269,5 @@ def _bar(plus: Sequence[float], minus: Sequence[float], colour: str) -> dict[str
 def figures(
     swept: SweptEffect, curve: Sequence[CurvePoint], metrics: Sequence[str], others: Sequence[Other] = ()
 ) -> Mapping[str, Any]:
-    """View to metric to figure."""
-    return {view: {metric: figure(swept, curve, view, metric, others) for metric in metrics} for view in VIEWS}
+    """View to metric to figure, for the views that tell its settings apart."""
+    return {view: {metric: figure(swept, curve, view, metric, others) for metric in metrics} for view in swept.views}

@@ -68,17 +68,17 @@ def _subtitle(sweep: Sweep) -> str:
 
 
 def _section(swept: SweptEffect) -> dict[str, Any]:
-    tables = [
-        {
-            "view": view,
-            "metric": metric,
-            "rows": [_row(setting, view, metric) for setting in swept.settings],
-            "sentences": [s for s in conclusions(swept, view) if s.startswith(f"Least {label(metric)}")],
-        }
-        for view in VIEWS
-        for metric in METRICS
-    ]
+    tables = [_table(swept, view, metric) for view in VIEWS for metric in METRICS]
     return {"name": swept.effect, "terms": ", ".join(swept.terms), "tables": tables, "remarks": remarks(swept)}
+
+
+def _table(swept: SweptEffect, view: str, metric: str) -> dict[str, Any]:
+    if view in swept.views:
+        rows = [_row(setting, view, metric) for setting in swept.settings]
+        sentences = [s for s in conclusions(swept, view) if s.startswith(f"Least {label(metric)}")]
+    else:
+        rows, sentences = [], [f"{swept.effect} changes code values, and no light of the frame."]
+    return {"view": view, "metric": metric, "rows": rows, "sentences": sentences}
 
 
 def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:

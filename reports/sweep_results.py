@@ -100,6 +100,11 @@ class SweptEffect:
     idle: tuple[IdleKnob, ...] = ()
 
     @property
+    def views(self) -> tuple[str, ...]:
+        """Those of `VIEWS` that tell its settings apart: what changes code values changes no light of the frame."""
+        return tuple(VIEWS) if self.comparable else ("effect",)
+
+    @property
     def here(self) -> str:
         """What the current setting is, where others are told by how they differ: "resolution 1024, bias 0.5"."""
         varied = dict.fromkeys(name for setting in self.settings for name in setting.varied)
@@ -169,10 +174,10 @@ def _words(knobs: Mapping[str, Any], names: Iterable[str]) -> str:
 
 def ranked(swept: SweptEffect, curve: Sequence[CurvePoint]) -> SweptEffect:
     """The same settings with their place on the front, and when the path tracer is as good."""
-    views = {view: _ranked([s.standing(view) for s in swept.settings]) for view in VIEWS}
-    views["frame"] = [_crossed(standing, curve) for standing in views["frame"]]
+    views = {view: [s.standing(view) for s in swept.settings] for view in VIEWS}
+    views |= {view: _ranked(views[view]) for view in swept.views}
     if swept.comparable:
-        views["effect"] = [_crossed(standing, curve) for standing in views["effect"]]
+        views = {view: [_crossed(standing, curve) for standing in standings] for view, standings in views.items()}
     settings = [
         replace(setting, effect=own, frame=frame)
         for setting, own, frame in zip(swept.settings, views["effect"], views["frame"], strict=True)

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 def sweep_tables(sweep: Sweep) -> Group:
-    """Two tables per effect, its own error and the frame's; the best setting of each; the path tracer; notes."""
+    """A table per effect and view, with the best setting; the path tracer; notes."""
     from rich.console import Group
     from rich.text import Text
 
     parts: list = []
     for swept in sweep.effects:
-        for view in VIEWS:
+        for view in swept.views:
             parts.append(_table(swept, view))
             parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
         beside = remarks(swept)

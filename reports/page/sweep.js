@@ -43,8 +43,9 @@ async function draw() {
         table.hidden = table.dataset.view !== view || table.dataset.metric !== metric;
     }
     for (const place of document.querySelectorAll('.plot')) {
-        const figure = plots[place.dataset.effect][view][metric];
-        await Plotly.react(place, inked(figure.data, colour('--ink')), layout(figure), config);
+        const figure = plots[place.dataset.effect][view]?.[metric];
+        place.hidden = !figure;
+        if (figure) await Plotly.react(place, inked(figure.data, colour('--ink')), layout(figure), config);
     }
     document.body.dataset.shown = `${view} ${metric}`;
 }

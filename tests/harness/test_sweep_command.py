@@ -142,11 +142,20 @@ def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
     document = json.loads((tmp_path / "out" / "sweep.json").read_text())
     ambient, tone = document["effects"]
     assert (ambient["effect"], tone["effect"]) == ("constant_ambient", "narkowicz")
-    assert "constant_ambient: effect alone" in found.out and "narkowicz: whole frame" in found.out
+    assert "constant_ambient: effect alone" in found.out and "narkowicz: effect alone" in found.out
     # The error of a tone curve is one of code values, which no path tracer's radiance is held against.
     assert ambient["comparable"] and all("rmse" in s["effect"]["path_tracer"] for s in ambient["settings"])
     assert not tone["comparable"] and all(s["effect"]["path_tracer"] == {} for s in tone["settings"])
-    assert all("rmse" in s["frame"]["path_tracer"] for s in tone["settings"])
+    # Nor does it change the frame's light: that is the same for all settings, and tells nothing of them.
+    assert "constant_ambient: whole frame" in found.out and "narkowicz: whole frame" not in found.out
+    assert len({s["frame"]["metrics"]["rmse"]["value"] for s in tone["settings"]}) == 1
+    assert all(s["frame"]["front"] == {} for s in tone["settings"])
+
+
+def test_where_no_error_is_one_of_radiance_no_path_is_traced_for_a_curve(run):
+    found = run("sweep", "plane", "narkowicz", "--knob", "prescale=0.4,0.5", "--size", "16x16", *BRIEF, "--json")
+    assert found.code == 0, found.err
+    assert found.json["complete"] and found.json["path_tracer"] == []
 
 
 def test_what_was_measured_before_an_interrupt_is_written(run, tmp_path, monkeypatch):

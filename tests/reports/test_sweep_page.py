@@ -87,6 +87,7 @@ def test_view_and_metric_can_be_chosen(page: Page) -> None:
 
 @needs_chromium
 def test_the_plot_s_buttons_cover_neither_plot_nor_legend(page: Page) -> None:
+    choose(page, "effect", "rmse")
     edge = "Math.min(...[...document.querySelectorAll('.plot .modebar')].map(b => b.getBoundingClientRect().left))"
     ends = "Math.max(...[...document.querySelectorAll('.plot .nsewdrag, .plot .legend')]"
     assert page.evaluate(edge) >= page.evaluate(ends + ".map(b => b.getBoundingClientRect().right))")
@@ -96,8 +97,16 @@ def test_the_plot_s_buttons_cover_neither_plot_nor_legend(page: Page) -> None:
 def test_code_values_have_no_path_tracer_beside_them(page: Page) -> None:
     choose(page, "effect", "rmse")
     assert trace(page, "path tracer", 0) and not trace(page, "path tracer", 1)
-    choose(page, "frame", "rmse")
-    assert trace(page, "path tracer", 1)
+
+
+@needs_chromium
+def test_what_changes_no_light_has_no_plot_of_the_frame(page: Page) -> None:
+    hidden = "[...document.querySelectorAll('.plot')].map(place => place.hidden)"
+    choose(page, "effect", "rmse")
+    assert page.evaluate(hidden) == [False, False]
+    choose(page, "frame", "flip")
+    assert page.evaluate(hidden) == [False, True]
+    assert "narkowicz changes code values, and no light of the frame." in page.evaluate("document.body.innerText")
 
 
 @needs_chromium
@@ -136,7 +145,8 @@ def test_json_and_csv_say_the_same() -> None:
             for name, measured in standing["metrics"].items():
                 for column, value in (("", measured["value"]), ("_low", measured["low"]), ("_high", measured["high"])):
                     same(row[f"{view}_{name}{column}"], value)
-                assert row[f"{view}_{name}_front"] == str(int(standing["front"][name]))
+                on_front = standing["front"].get(name)
+                assert row[f"{view}_{name}_front"] == ("" if on_front is None else str(int(on_front)))
                 crossed = standing["path_tracer"].get(name)
                 same(row[f"{view}_{name}_path_tracer_ms"], crossed and crossed["ms"])
                 assert row[f"{view}_{name}_path_tracer_relation"] == (crossed["relation"] if crossed else "")
