@@ -41,6 +41,7 @@ class Measured:
 
     Attributes:
         picture: equal for settings whose judged pictures are equal bit for bit.
+        bakes: milliseconds of every time that the effect baked; none where it bakes nothing.
     """
 
     effect: str
@@ -49,6 +50,13 @@ class Measured:
     picture: bytes
     errors: Mapping[str, Mapping[str, Measurement]]
     recordings: list[Recording] = field(default_factory=list)
+    bakes: list[float] = field(default_factory=list)
+
+    def time(self, renderer: Renderer) -> None:
+        """Another round of frames, and what was baked for them."""
+        self.recordings.append(renderer.record(FRAMES, WARM_UP, self.effect))
+        baked = renderer.baking.milliseconds
+        self.bakes += [baked[self.effect]] if self.effect in baked else []
 
 
 class Sweeping:
@@ -102,7 +110,7 @@ class Sweeping:
             for done, item in enumerate(order):
                 self._report("times", number * len(everything) + done, total)
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
-                item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP, item.effect))
+                item.time(self._renderer(item.plan))
         self._report("times", total, total)
         if goal := self._goal():
             for point in convergence(self._truth, self._display, goal, self._curve_seconds, self._report):
@@ -165,7 +173,9 @@ class Sweeping:
         questions = {view: Question(found.METRICS, side) for view, side in sides.items()}
         errors = answers(questions, self._display, silent)
         tested = (image for side in sides.values() for image in side.tested)
-        return Measured(name, plan, visit, _digest(tested), errors, [renderer.record(FRAMES, WARM_UP, name)])
+        measured = Measured(name, plan, visit, _digest(tested), errors)
+        measured.time(renderer)
+        return measured
 
     def _own_sides(self, renderer: Renderer, name: str) -> Sides:
         terms = renderer.plan.terms_of(name)
@@ -205,6 +215,7 @@ class Sweeping:
             current=item.visit.knobs == self._plan.effects[item.effect][1],
             effect=found.Standing(_timing(self._own_time(item)), item.errors["effect"]),
             frame=found.Standing(_timing(summarise(item.recordings).frame), item.errors["frame"]),
+            bake_ms=float(np.median(item.bakes)) if item.bakes else None,
         )
 
     def _idle_knob(self, name: str, knob: str, needless: Sequence[int]) -> found.IdleKnob:
@@ -234,6 +245,11 @@ class Sweeping:
             "times together.",
             "An effect's own error is that of the frame if all else were exact (RMSE); FLIP is of its buffer alone.",
         ]
+        if any(item.bakes for listed in self._measured.values() for item in listed):
+            notes.append(
+                "What an effect bakes is made once, before the first frame, and is in no frame's time: wall time with "
+                "the compilation of its shaders, the median over the rounds."
+            )
         notes += sorted({t.doubt for t in times if t.doubt})
         floors = [e["frame"]["flip"].floor for listed in self._measured.values() for e in (m.errors for m in listed)]
         if floors and floors[0] is not None:

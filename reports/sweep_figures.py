@@ -9,7 +9,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.significant import show_measurement, show_number
 from lightmeter.reports.sweep_results import CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
-from lightmeter.reports.sweep_table import crossing_clause, show_time
+from lightmeter.reports.sweep_table import crossing_clause, show_bake, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
 # symbol of its own beside its colour: there are knobs enough in one effect for colours to come again.
@@ -108,7 +108,7 @@ def _hover(setting: Setting, view: str, metric: str) -> str:
     lines = [
         f"<b>{escape(setting.label)}</b>" + (" (current)" if setting.current and setting.varied else ""),
         f"{label(metric)} {escape(show_measurement(measured))}",
-        f"{show_time(standing.time_ms)} ms",
+        f"{show_time(standing.time_ms)} ms" + (f", baked in {show_bake(setting)} ms" if setting.bake_ms else ""),
         *(["on the Pareto front"] if standing.front.get(metric) else []),
     ]
     if measured.value <= 0:

@@ -17,7 +17,7 @@ from lightmeter.reports.results_json import to_json
 from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
 from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Sweep, SweptEffect, to_csv
-from lightmeter.reports.sweep_table import conclusions, crossing, remarks, show_time
+from lightmeter.reports.sweep_table import conclusions, crossing, remarks, show_bake, show_time
 from lightmeter.reports.truth_words import truth_words
 
 
@@ -69,7 +69,8 @@ def _subtitle(sweep: Sweep) -> str:
 
 def _section(swept: SweptEffect) -> dict[str, Any]:
     tables = [_table(swept, view, metric) for view in VIEWS for metric in METRICS]
-    return {"name": swept.effect, "terms": ", ".join(swept.terms), "tables": tables, "remarks": remarks(swept)}
+    terms = ", ".join(swept.terms)
+    return {"name": swept.effect, "terms": terms, "tables": tables, "bakes": swept.bakes, "remarks": remarks(swept)}
 
 
 def _table(swept: SweptEffect, view: str, metric: str) -> dict[str, Any]:
@@ -92,6 +93,7 @@ def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:
         "unit": measured.unit,
         "how": measured.how,
         "time": show_time(standing.time_ms),
+        "bake": show_bake(setting),
         "front": standing.front.get(metric, False),
         "crossing": crossing(standing, metric),
     }

@@ -46,6 +46,7 @@ class Setting:
         varied: the knobs that set it apart from the current setting, or all that a grid varies.
         current: whether it is the setting that the sweep went out from.
         effect, frame: the two views.
+        bake_ms: what was made once, before the first frame, took; None where nothing was.
     """
 
     knobs: Mapping[str, Any]
@@ -53,6 +54,7 @@ class Setting:
     current: bool
     effect: Standing
     frame: Standing
+    bake_ms: float | None = None
 
     def standing(self, view: str) -> Standing:
         """The standing in one of `VIEWS`."""
@@ -103,6 +105,11 @@ class SweptEffect:
     def views(self) -> tuple[str, ...]:
         """Those of `VIEWS` that tell its settings apart: what changes code values changes no light of the frame."""
         return tuple(VIEWS) if self.comparable else ("effect",)
+
+    @property
+    def bakes(self) -> bool:
+        """Whether anything is made once, before the first frame."""
+        return any(setting.bake_ms is not None for setting in self.settings)
 
     @property
     def here(self) -> str:
@@ -220,7 +227,7 @@ def to_csv(sweep: Sweep) -> str:
 
     Columns are the knobs by name, and `VIEW_…` for both views: milliseconds with their median absolute deviation, and
     for every metric value, interval, whether the setting is on the front, and the path tracer's time with its relation
-    ("=", "<=", ">"). A cell is empty where there is nothing.
+    ("=", "<=", ">"); and `bake_ms` where something is baked. A cell is empty where there is nothing.
     """
     rows = list(_rows(sweep))
     columns = list(dict.fromkeys(column for row in rows for column in row))
@@ -240,7 +247,7 @@ def _rows(sweep: Sweep) -> Iterator[dict[str, Any]]:
             for view in VIEWS:
                 standing = setting.standing(view)
                 row |= _cells(view, standing.time_ms, standing.metrics, standing)
-            yield row
+            yield row if setting.bake_ms is None else row | {"bake_ms": setting.bake_ms}
     for point in sweep.path_tracer:
         yield {"what": "path tracer", "spp": point.spp} | _cells("frame", point.time_ms, point.metrics)
     for other in sweep.others:

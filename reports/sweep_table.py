@@ -97,20 +97,26 @@ def _table(swept: SweptEffect, view: str) -> Table:
     table.add_column("setting")
     for metric in METRICS:
         table.add_column(label(metric), justify="right", no_wrap=True)
-    for column in ("ms", "front", "path tracer (RMSE)"):
+    for column in ("ms", *["baked, ms"] * swept.bakes, "front", "path tracer (RMSE)"):
         table.add_column(column, justify="right", no_wrap=True)
     for setting in swept.settings:
-        table.add_row(*map(Text, _cells(setting, view)), style="bold" if setting.current else "")
+        table.add_row(*map(Text, _cells(setting, view, swept.bakes)), style="bold" if setting.current else "")
     return table
 
 
-def _cells(setting: Setting, view: str) -> list[str]:
+def show_bake(setting: Setting) -> str:
+    """What baking took, once."""
+    return "–" if setting.bake_ms is None else show_number(setting.bake_ms)
+
+
+def _cells(setting: Setting, view: str, bakes: bool) -> list[str]:
     standing = setting.standing(view)
     front = [label(metric) for metric in METRICS if standing.front.get(metric)]
     return [
         setting.label,
         *(_bare(standing.metrics[metric]) for metric in METRICS),
         show_time(standing.time_ms),
+        *[show_bake(setting)] * bakes,
         ", ".join(front),
         crossing(standing, "rmse"),
     ]

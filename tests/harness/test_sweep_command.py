@@ -135,6 +135,15 @@ def test_supersampling_is_judged_at_all_its_samples():
     assert np.allclose(four.tested[0], some.tested[0], rtol=1e-6, atol=0)
 
 
+def test_what_an_effect_bakes_is_shown_apart(run, tmp_path):
+    words = ("--environment", "studio", "--use", "spherical_harmonics", "--size", "16x16", *BRIEF)
+    found = run("sweep", "plane", "spherical_harmonics", "--knob", "order=2,3", *words)
+    assert found.code == 0, found.err
+    (swept,) = json.loads((tmp_path / "out" / "sweep.json").read_text())["effects"]
+    assert all(setting["bake_ms"] > 0 for setting in swept["settings"])
+    assert "baked, ms" in found.out
+
+
 def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
     chosen = ("--only", "lambert,constant_ambient,narkowicz,srgb")
     found = run("sweep", "posts", "--all", "--size", "16x16", *chosen, *BRIEF, "--no-store")
@@ -156,6 +165,7 @@ def test_where_no_error_is_one_of_radiance_no_path_is_traced_for_a_curve(run):
     found = run("sweep", "plane", "narkowicz", "--knob", "prescale=0.4,0.5", "--size", "16x16", *BRIEF, "--json")
     assert found.code == 0, found.err
     assert found.json["complete"] and found.json["path_tracer"] == []
+    assert all(setting["bake_ms"] is None for setting in found.json["effects"][0]["settings"])
 
 
 def test_what_was_measured_before_an_interrupt_is_written(run, tmp_path, monkeypatch):

@@ -5,6 +5,7 @@ import io
 import json
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -139,6 +140,7 @@ def test_json_and_csv_say_the_same() -> None:
     for row, (effect, setting) in zip(rows, settings, strict=False):
         assert row["what"] == effect and row["current"] == str(int(setting["current"]))
         assert all(row[name] == str(value) for name, value in setting["knobs"].items())
+        same(row["bake_ms"], setting["bake_ms"])
         for view in ("effect", "frame"):
             standing = setting[view]
             same(row[f"{view}_ms"], standing["time_ms"]["median"])
@@ -179,6 +181,13 @@ def test_the_front_s_settings_are_named_in_the_plot() -> None:
     assert len(on_front) == 3
     assert names["text"] == [s.label for s in on_front]
     assert names["x"] == [s.effect.time_ms.median for s in on_front]
+
+
+def test_what_is_baked_has_a_column_where_there_is_anything() -> None:
+    shadow, tone = make_sweep().effects
+    alone = [render_sweep(replace(make_sweep(), effects=(effect,))) for effect in (shadow, tone)]
+    assert "Baked once" not in alone[0]
+    assert "Baked once" in alone[1] and '<td class="right">60.0</td>' in alone[1]
 
 
 def test_what_the_current_setting_is_can_be_read() -> None:
