@@ -272,11 +272,13 @@ def has_passes(plan: Plan, name: str) -> bool:
     return any(step.effect == name for step in plan.steps)
 
 
-def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[str]) -> dict[str, list[Visit]]:
+def plan_visits(
+    scene: Scene, choice: Choice, name: str | None, words: Sequence[str], grid: bool = True
+) -> dict[str, list[Visit]]:
     """What to measure: one effect's settings, or (`name` None) those of every effect of the frame that has any.
 
     Args:
-        words: what `--knob` was given, see `knob_words.visits`.
+        words, grid: what `--knob` was given, and whether that makes a grid, see `knob_words.visits`.
 
     Raises:
         UsageError: the effect takes no part in the scene's frame, or there is nothing to vary.
@@ -287,7 +289,7 @@ def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[
         declaration = effect(name)
         if name not in plan.effects:
             raise UsageError(_absent(scene, choice, plan, name))
-        return {name: visits(declaration, plan.effects[name][1], words)}
+        return {name: visits(declaration, plan.effects[name][1], words, grid)}
     listed = {name: visits(e, knobs) for name, (e, knobs) in plan.effects.items() if declared(e)}
     if not listed:
         raise UsageError(f"no effect of {scene.name} has a knob to sweep; it has: {', '.join(plan.effects)}")

@@ -63,6 +63,27 @@ def test_several_knobs_give_their_grid():
     assert all(v.varied == ("filter", "resolution", "bias") for v in found)
 
 
+def test_several_knobs_can_be_varied_one_at_a_time():
+    shadow = effect("shadow_map")
+    current = shadow.settings({})
+    found = visits(shadow, current, ["filter=hard", "resolution=32,64"], grid=False)
+    assert [visit.varied for visit in found] == [(), ("filter",), ("resolution",), ("resolution",)]
+    assert [visit.knobs["resolution"] for visit in found] == [current["resolution"]] * 2 + [32, 64]
+
+
+def test_a_grid_has_an_end(refused):
+    """Repeated values count once: 256 settings are allowed, and no more."""
+    shadow = effect("shadow_map")
+    sixteen = ",".join(map(str, range(16, 32)))
+    tenths = ",".join(f"{n / 10}" for n in [*range(16), *range(16)])
+    words = [f"resolution={sixteen}", f"bias={tenths}"]
+    assert len(visits(shadow, shadow.settings({}), words)) == 256
+    with pytest.raises(UsageError, match=r"16 × 16 × 2 = 512 settings; expected at most 256: .*--one-at-a-time"):
+        visits(shadow, shadow.settings({}), [*words, "filter=hard,pcf3"])
+    many = [word for knob in effect("cook_torrance").knobs if knob.sweep for word in ("--knob", knob.name)]
+    assert "3 × 6 × 4 × 5 × 3 = 1080 settings" in refused("sweep", "torus", "cook_torrance", *many)
+
+
 def test_a_knob_without_declared_values_needs_them():
     bare = replace(effect("shadow_map"), knobs=(replace(effect("shadow_map").knobs[0], sweep=()),))
     with pytest.raises(UsageError, match="--knob resolution=v1,v2"):
