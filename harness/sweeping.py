@@ -15,7 +15,9 @@ from lightmeter.failures import UsageError
 from lightmeter.idle_knobs import idle_knobs
 from lightmeter.knob_words import Visit, declared, visits
 from lightmeter.measuring import Question, answers
+from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.told_apart import SquaredError, told_apart
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effect, effects
@@ -41,6 +43,7 @@ class Measured:
 
     Attributes:
         picture: equal for settings whose judged pictures are equal bit for bit.
+        squared: by view, what RMSEs are told apart by.
         bakes: milliseconds of every time that the effect baked; none where it bakes nothing.
     """
 
@@ -49,6 +52,7 @@ class Measured:
     visit: Visit
     picture: bytes
     errors: Mapping[str, Mapping[str, Measurement]]
+    squared: Mapping[str, SquaredError]
     recordings: list[Recording] = field(default_factory=list)
     bakes: list[float] = field(default_factory=list)
 
@@ -173,7 +177,8 @@ class Sweeping:
         questions = {view: Question(found.METRICS, side) for view, side in sides.items()}
         errors = answers(questions, self._display, silent)
         tested = (image for side in sides.values() for image in side.tested)
-        measured = Measured(name, plan, visit, _digest(tested), errors)
+        squared = {view: SquaredError.of(Comparison(side.tested, side.truth)) for view, side in sides.items()}
+        measured = Measured(name, plan, visit, _digest(tested), errors, squared)
         measured.time(renderer)
         return measured
 
@@ -197,24 +202,31 @@ class Sweeping:
 
     def _swept(self, name: str) -> found.SweptEffect:
         declaration = self._plan.effects[name][0]
-        idle = self._idle(name)
+        idle, kept = self._idle(name), self._kept(name)
+        least = {view: _least([item.squared[view] for item in kept]) for view in found.VIEWS}
         return found.SweptEffect(
             effect=name,
             terms=self._plan.terms_of(name),
             own_time="its passes" if has_passes(self._plan, name) else "the whole frame",
             comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
-            settings=tuple(self._setting(item, idle) for item in self._kept(name)),
+            settings=tuple(self._setting(item, idle, least) for item in kept),
             idle=tuple(self._idle_knob(name, knob, indices) for knob, indices in idle.items()),
         )
 
-    def _setting(self, item: Measured, idle: Iterable[str]) -> found.Setting:
-        varied = item.visit.varied
+    def _setting(self, item: Measured, idle: Iterable[str], least: Mapping[str, SquaredError]) -> found.Setting:
+        varied, times = item.visit.varied, {"effect": self._own_time(item), "frame": summarise(item.recordings).frame}
+        standings = {
+            view: found.Standing(
+                _timing(times[view]), item.errors[view], as_good=not told_apart(item.squared[view], least[view])
+            )
+            for view in found.VIEWS
+        }
         return found.Setting(
             knobs=dict(item.visit.knobs),
             varied=tuple(knob for knob in varied if knob not in idle) or varied,
             current=item.visit.knobs == self._plan.effects[item.effect][1],
-            effect=found.Standing(_timing(self._own_time(item)), item.errors["effect"]),
-            frame=found.Standing(_timing(summarise(item.recordings).frame), item.errors["frame"]),
+            effect=standings["effect"],
+            frame=standings["frame"],
             bake_ms=float(np.median(item.bakes)) if item.bakes else None,
         )
 
@@ -301,6 +313,11 @@ def _absent(scene: Scene, choice: Choice, plan: Plan, name: str) -> str:
     message = f"{name} takes no part in {scene.name}: {plan.why_absent(name)}; it has: {', '.join(plan.effects)}"
     preferred = compile_plan(scene, effects(), replace(choice, use=(name, *choice.use)))
     return message + (f"; `--use {name}` prefers it" if name in preferred.effects else "")
+
+
+def _least(squared: Sequence[SquaredError]) -> SquaredError:
+    """The least that is finite, if any is."""
+    return min(squared, key=lambda error: error.value if np.isfinite(error.value) else np.inf)
 
 
 def _digest(images: Iterable[np.ndarray]) -> bytes:

@@ -29,12 +29,14 @@ class Standing:
         metrics: the error.
         front: metric to whether the setting is on the Pareto front.
         path_tracer: metric to when the path tracer is as good; without the metrics for which that cannot be said.
+        as_good: whether its RMSE cannot be told from the least, by their difference over the same batches.
     """
 
     time_ms: Timing
     metrics: Metrics
     front: Mapping[str, bool] = field(default_factory=dict)
     path_tracer: Mapping[str, Crossover] = field(default_factory=dict)
+    as_good: bool = False
 
 
 @dataclass(frozen=True)

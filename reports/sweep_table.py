@@ -38,7 +38,7 @@ def sweep_tables(sweep: Sweep) -> Group:
 
 
 def conclusions(swept: SweptEffect, view: str) -> list[str]:
-    """For each metric a sentence: the best setting, and when the path tracer is as good."""
+    """For each metric: the best setting, when the path tracer is as good, and how many settings may be so too."""
     sentences = []
     for metric in METRICS:
         setting = best(swept, view, metric)
@@ -50,8 +50,19 @@ def conclusions(swept: SweptEffect, view: str) -> list[str]:
             f"{show_number(standing.time_ms.median)} ms"
         )
         clause = crossing_clause(standing, metric)
-        sentences.append(f"{text}; {clause}." if clause else f"{text}.")
+        equals = _as_good(swept, view, setting) if metric == "rmse" else ""
+        sentences.append((f"{text}; {clause}." if clause else f"{text}.") + equals)
     return sentences
+
+
+def _as_good(swept: SweptEffect, view: str, least: Setting) -> str:
+    """A sentence on the settings whose RMSE cannot be told from the least; "" where there are none."""
+    others = [s for s in swept.settings if s.standing(view).as_good and s is not least]
+    if not others:
+        return ""
+    fastest = min([least, *others], key=lambda s: s.standing(view).time_ms.median)
+    beside = f", the fastest of them {fastest.label} in {show_number(fastest.standing(view).time_ms.median)} ms"
+    return f" {len(others)} more cannot be told from it{'' if fastest is least else beside}."
 
 
 def remarks(swept: SweptEffect) -> list[str]:

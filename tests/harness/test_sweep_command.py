@@ -134,6 +134,7 @@ def test_supersampling_costs_what_the_frame_costs(run):
     one, two = swept["settings"]
     assert one["effect"]["metrics"]["rmse"]["low"] > two["effect"]["metrics"]["rmse"]["high"]
     assert two["effect"]["time_ms"] == two["frame"]["time_ms"]
+    assert [s[view]["as_good"] for view in ("effect", "frame") for s in (one, two)] == [False, True, False, True]
 
 
 def test_supersampling_is_judged_at_all_its_samples():

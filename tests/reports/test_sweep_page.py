@@ -14,7 +14,7 @@ from lightmeter.reports.results_json import to_json
 from lightmeter.reports.sweep_figures import figure, groups
 from lightmeter.reports.sweep_page import render_sweep, write_sweep
 from lightmeter.reports.sweep_results import best, to_csv
-from lightmeter.reports.sweep_table import remarks
+from lightmeter.reports.sweep_table import conclusions, remarks
 
 from .chromium_pipe import Page, find_chromium, open_chromium
 from .synthetic_sweep import make_sweep
@@ -171,6 +171,18 @@ def same(cell: str, value) -> None:
 def test_a_grid_has_a_line_per_value_of_its_shortest_knob() -> None:
     settings = make_sweep().effects[0].settings
     assert {name: len(members) for name, members in groups(settings).items()} == {"filter hard": 2, "filter pcf3": 3}
+
+
+def test_settings_that_are_as_good_as_far_as_is_known_are_told_with_the_best() -> None:
+    shadow = make_sweep().effects[0]
+
+    def sentence(*good: str) -> str:
+        settings = [replace(s, effect=replace(s.effect, as_good=s.label in good)) for s in shadow.settings]
+        return conclusions(replace(shadow, settings=tuple(settings)), "effect")[0]
+
+    least, faster = "resolution 256, filter pcf3", "resolution 128, filter pcf3"
+    assert "cannot be told" not in sentence(least)
+    assert sentence(least, faster).endswith(f" 1 more cannot be told from it, the fastest of them {faster} in 1.50 ms.")
 
 
 def test_the_front_s_settings_are_named_in_the_plot() -> None:
