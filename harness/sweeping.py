@@ -201,17 +201,20 @@ class Sweeping:
         return idle_knobs([item.visit for item in listed], [item.picture for item in listed])
 
     def _swept(self, name: str) -> found.SweptEffect:
-        declaration = self._plan.effects[name][0]
         idle, kept = self._idle(name), self._kept(name)
         least = {view: _least([item.squared[view] for item in kept]) for view in found.VIEWS}
         return found.SweptEffect(
             effect=name,
             terms=self._plan.terms_of(name),
             own_time="its passes" if has_passes(self._plan, name) else "the whole frame",
-            comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
+            comparable=self._of_light(name),
             settings=tuple(self._setting(item, idle, least) for item in kept),
             idle=tuple(self._idle_knob(name, knob, indices) for knob, indices in idle.items()),
         )
+
+    def _of_light(self, name: str) -> bool:
+        """Whether an effect's error is one of radiance, not of code values."""
+        return not set(self._plan.effects[name][0].terms) & set(DISPLAY_TERMS)
 
     def _setting(self, item: Measured, idle: Iterable[str], least: Mapping[str, SquaredError]) -> found.Setting:
         varied, times = item.visit.varied, {"effect": self._own_time(item), "frame": summarise(item.recordings).frame}
@@ -263,7 +266,8 @@ class Sweeping:
                 "the compilation of its shaders, the median over the rounds."
             )
         notes += sorted({t.doubt for t in times if t.doubt})
-        floors = [e["frame"]["flip"].floor for listed in self._measured.values() for e in (m.errors for m in listed)]
+        lit = [item for name, listed in self._measured.items() if self._of_light(name) for item in listed]
+        floors = [item.errors["frame"]["flip"].floor for item in lit]
         if floors and floors[0] is not None:
             notes.append(
                 "FLIP is biased by the reference's noise, for the settings and for the path tracer: between two halves "

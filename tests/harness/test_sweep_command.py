@@ -187,6 +187,7 @@ def test_where_no_error_is_one_of_radiance_no_path_is_traced_for_a_curve(run):
     found = run("sweep", "plane", "narkowicz", "--knob", "prescale=0.4,0.5", "--size", "16x16", *BRIEF, "--json")
     assert found.code == 0, found.err
     assert found.json["complete"] and found.json["path_tracer"] == []
+    assert not any("path tracer" in note for note in found.json["notes"])
     assert all(setting["bake_ms"] is None for setting in found.json["effects"][0]["settings"])
 
 
