@@ -137,6 +137,18 @@ def test_supersampling_costs_what_the_frame_costs(run):
     assert [s[view]["as_good"] for view in ("effect", "frame") for s in (one, two)] == [False, True, False, True]
 
 
+def test_passes_of_other_effects_are_not_timed_where_one_is_wanted():
+    choice = Choice(settings={"supersampling": {"grid": 2}, "shadow_map": {"resolution": 32}})
+    renderer = Renderer(Device(), compile_plan(load("posts"), effects(), choice), (16, 16))
+    everyone, own = renderer.record(2, 0), renderer.record(2, 0, only="shadow_map")
+    names = [entry[:2] for entry in everyone.passes if entry[1] == "shadow_map"]
+    assert 0 < len(names) < len(everyone.passes)
+    assert [entry[:2] for entry in own.passes] == names
+    assert all(len(times) == 2 for *_, times in own.passes) and len(own.frame) == 2
+    # What further samples cost is the whole less all passes, and is not known from some of them.
+    assert (everyone.sampling, own.sampling) == ("supersampling", "")
+
+
 def test_supersampling_is_judged_at_all_its_samples():
     """The control's error is its outline's: 8 × 8 samples, more than `effect_sides` looks at, err less than 4 × 4.
 
