@@ -74,6 +74,13 @@ def _values(settings: Sequence[Setting], knob: str) -> tuple[int, bool]:
     return len(found), all(isinstance(value, (int, float)) for value in found)
 
 
+def _in_order(members: Sequence[Setting]) -> bool:
+    """Whether a line through settings means anything: they differ in one knob, which is a number and no choice."""
+    values = [{s.knobs[name] for s in members} for name in (members[0].knobs if members else ())]
+    differing = [found for found in values if len(found) > 1]
+    return len(differing) == 1 and not any(isinstance(value, (str, bool)) for value in differing[0])
+
+
 def _settings(lines: Mapping[str, Sequence[Setting]], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
     traces = []
     for index, (name, members) in enumerate(lines.items()):
@@ -84,7 +91,7 @@ def _settings(lines: Mapping[str, Sequence[Setting]], view: str, metric: str, fl
         traces.append(
             {
                 "name": escape(name),
-                "mode": "lines+markers",
+                "mode": "lines+markers" if _in_order(members) else "markers",
                 "x": [t.median for t in times],
                 "y": [max(m.value, floor) for m in measured],
                 "error_x": _bar([t.mad for t in times], [t.mad for t in times], colour),

@@ -210,6 +210,21 @@ def test_what_the_current_setting_is_can_be_read() -> None:
     assert "Current setting: scale 0.6." in render_sweep(make_sweep())
 
 
+def test_a_line_is_drawn_through_numbers_and_not_through_choices() -> None:
+    shadow = make_sweep().effects[0]
+
+    def mode(settings, name: str) -> str:
+        drawn = figure(replace(shadow, settings=tuple(settings)), (), "effect", "rmse")["data"]
+        return next(d["mode"] for d in drawn if d["name"] == name)
+
+    assert mode(shadow.settings, "filter hard") == "lines+markers"  # over the resolution
+    current = replace(shadow.settings[1], varied=())
+    assert mode([current, replace(shadow.settings[0], varied=("filter",))], "filter") == "markers"
+    assert mode([current, replace(shadow.settings[3], varied=("resolution",))], "resolution") == "lines+markers"
+    switched = [replace(current, knobs={"on": on}, varied=("on",) * on) for on in (False, True)]
+    assert mode(switched, "on") == "markers"
+
+
 def test_the_best_is_the_least_error_and_what_failed_is_not_drawn() -> None:
     sweep = make_sweep()
     shadow = sweep.effects[0]
