@@ -19,6 +19,7 @@ from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.metrics.told_apart import SquaredError, told_apart
 from lightmeter.progress import Report, silent
+from lightmeter.realtime.baking import Baking
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.display import DISPLAY_TERMS, display_transform
@@ -35,6 +36,8 @@ from lightmeter.truth import Truth
 ROUNDS, FRAMES, WARM_UP = 4, 5, 3
 """Every setting is timed for `FRAMES` frames in each round, so that what else the machine does in the meantime
 falls on all settings alike and does not look like a trend."""
+KEPT_BAKING = 1000.0
+"""Milliseconds of baking from which on it is kept for the other rounds; less is done again, and needs no memory."""
 
 
 @dataclass(eq=False)
@@ -45,6 +48,7 @@ class Measured:
         picture: equal for settings whose judged pictures are equal bit for bit.
         squared: by view, what RMSEs are told apart by.
         bakes: milliseconds of every time that the effect baked; none where it bakes nothing.
+        baking: what the plan's effects baked, where that is kept.
     """
 
     effect: str
@@ -55,12 +59,16 @@ class Measured:
     squared: Mapping[str, SquaredError]
     recordings: list[Recording] = field(default_factory=list)
     bakes: list[float] = field(default_factory=list)
+    baking: Baking | None = None
 
     def time(self, renderer: Renderer) -> None:
         """Another round of frames, and what was baked for them."""
         self.recordings.append(renderer.record(FRAMES, WARM_UP, self.effect))
+        if renderer.baking is self.baking:
+            return
         baked = renderer.baking.milliseconds
         self.bakes += [baked[self.effect]] if self.effect in baked else []
+        self.baking = renderer.baking if sum(baked.values()) >= KEPT_BAKING else None
 
 
 class Sweeping:
@@ -114,7 +122,7 @@ class Sweeping:
             for done, item in enumerate(order):
                 self._report("times", number * len(everything) + done, total)
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
-                item.time(self._renderer(item.plan))
+                item.time(self._renderer(item.plan, item.baking))
         self._report("times", total, total)
         if goal := self._goal():
             for point in convergence(self._truth, self._display, goal, self._curve_seconds, self._report):
@@ -164,8 +172,8 @@ class Sweeping:
             others=self._others,
         )
 
-    def _renderer(self, plan: Plan) -> Renderer:
-        return Renderer(self._device, plan, self._truth.size)
+    def _renderer(self, plan: Plan, baking: Baking | None = None) -> Renderer:
+        return Renderer(self._device, plan, self._truth.size, baking)
 
     def _measure(self, name: str, visit: Visit) -> Measured:
         """Both errors of a setting, and its first round of times."""
@@ -263,7 +271,7 @@ class Sweeping:
         if any(item.bakes for listed in self._measured.values() for item in listed):
             notes.append(
                 "What an effect bakes is made once, before the first frame, and is in no frame's time: wall time with "
-                "the compilation of its shaders, the median over the rounds."
+                "the compilation of its shaders, once or (where it is short) the median over the rounds."
             )
         notes += sorted({t.doubt for t in times if t.doubt})
         lit = [item for name, listed in self._measured.items() if self._of_light(name) for item in listed]

@@ -61,17 +61,17 @@ class Renderer:
     """Renders one plan at one size. Everything is compiled, uploaded and baked once, here.
 
     Attributes:
-        baking: what the plan's effects baked, and in what time.
+        baking: what the plan's effects baked, and in what time; given, what another renderer of the plan baked.
     """
 
-    def __init__(self, device: Device, plan: Plan, size: tuple[int, int]) -> None:
+    def __init__(self, device: Device, plan: Plan, size: tuple[int, int], baking: Baking | None = None) -> None:
         self.device, self.plan, self.size = device, plan, size
         filtering = plan.effect_of("material")
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance, stored=plan.stored())
-        self.baking = Baking(device)
+        self.baking = baking or Baking(device)
         self._scattered = (
             FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
         )

@@ -178,6 +178,27 @@ def test_what_an_effect_bakes_is_shown_apart(run, tmp_path):
     assert "baked, ms" in found.out
 
 
+@pytest.mark.parametrize(("kept_from", "times"), [(0.0, 1), (math.inf, 1 + 3)])
+def test_what_takes_long_to_bake_is_baked_once(run, tmp_path, monkeypatch, kept_from, times):
+    """Else in every round."""
+    from lightmeter.realtime.effects.spherical_harmonics.passes import Passes
+
+    bake, baked = Passes.bake, []
+
+    def counted(self):
+        baked.append(self)
+        return bake(self)
+
+    monkeypatch.setattr(Passes, "bake", counted)
+    monkeypatch.setattr(sweeping, "KEPT_BAKING", kept_from)
+    words = ("--environment", "studio", "--use", "spherical_harmonics", "--size", "16x16", *BRIEF)
+    found = run("sweep", "plane", "spherical_harmonics", "--knob", "order=3", *words)
+    assert found.code == 0, found.err
+    assert len(baked) == times
+    (setting,) = json.loads((tmp_path / "out" / "sweep.json").read_text())["effects"][0]["settings"]
+    assert setting["bake_ms"] > 0
+
+
 def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
     chosen = ("--only", "lambert,constant_ambient,narkowicz,srgb")
     found = run("sweep", "posts", "--all", "--size", "16x16", *chosen, *BRIEF, "--no-store")
