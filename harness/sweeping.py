@@ -12,7 +12,7 @@ from lightmeter.candidates.judging import judge
 from lightmeter.convergence import convergence
 from lightmeter.device import fingerprint
 from lightmeter.failures import UsageError
-from lightmeter.idle_knobs import idle_knobs
+from lightmeter.idle_knobs import needless
 from lightmeter.knob_words import Visit, declared, visits
 from lightmeter.measuring import Question, answers
 from lightmeter.metrics.comparison import Comparison
@@ -199,14 +199,14 @@ class Sweeping:
         return effect_sides(renderer, self._truth, silent, only=(name,))[name]
 
     def _kept(self, name: str) -> list[Measured]:
-        """The settings of an effect but for those that an idle knob makes needless."""
+        """The settings of an effect but for those of which another tells all."""
         listed, idle = self._measured[name], self._idle(name)
-        needless = {index for indices in idle.values() for index in indices}
-        return [item for index, item in enumerate(listed) if index not in needless]
+        told = {index for indices in idle.values() for index in indices}
+        return [item for index, item in enumerate(listed) if index not in told]
 
     def _idle(self, name: str) -> dict[str, list[int]]:
         listed = self._measured[name]
-        return idle_knobs([item.visit for item in listed], [item.picture for item in listed])
+        return needless([item.visit for item in listed], [item.picture for item in listed])
 
     def _swept(self, name: str) -> found.SweptEffect:
         idle, kept = self._idle(name), self._kept(name)
@@ -241,8 +241,8 @@ class Sweeping:
             bake_ms=float(np.median(item.bakes)) if item.bakes else None,
         )
 
-    def _idle_knob(self, name: str, knob: str, needless: Sequence[int]) -> found.IdleKnob:
-        items = [self._measured[name][index] for index in needless]
+    def _idle_knob(self, name: str, knob: str, indices: Sequence[int]) -> found.IdleKnob:
+        items = [self._measured[name][index] for index in indices]
         times = [self._own_time(item).median for item in items]
         values = dict.fromkeys(item.visit.knobs[knob] for item in items)
         return found.IdleKnob(knob, tuple(values), min(times), max(times))

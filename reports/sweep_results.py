@@ -70,10 +70,10 @@ class Setting:
 
 @dataclass(frozen=True)
 class IdleKnob:
-    """A knob that makes no difference to what is judged, bit for bit.
+    """A knob of which some values, or all, make no difference to what is judged, bit for bit.
 
     Attributes:
-        values: those that were tried beside the settings that are listed.
+        values: those that were tried and are not listed among the settings.
         least_ms, most_ms: what the effect took with them.
     """
 
@@ -93,7 +93,7 @@ class SweptEffect:
         own_time: what its own time is: "its passes", or "the whole frame" where it has none of its own.
         comparable: whether its own error is one of radiance, as the path tracer's is.
         settings: in the order they were asked for.
-        idle: knobs that were varied and have no settings of their own.
+        idle: knobs and values that were tried and make no difference.
     """
 
     effect: str

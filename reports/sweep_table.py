@@ -66,7 +66,7 @@ def _as_good(swept: SweptEffect, view: str, least: Setting) -> str:
 
 
 def remarks(swept: SweptEffect) -> list[str]:
-    """What the current setting is, and a sentence for each knob that makes no difference."""
+    """What the current setting is, and a sentence for each knob of which values make no difference."""
     return [f"Current setting: {swept.here}."] * bool(swept.here) + [
         f"No row for {idle.knob} ({', '.join(map(show_knob, idle.values))}): the same picture bit for bit, in "
         f"{_between(idle.least_ms, idle.most_ms)} ms."

@@ -1,8 +1,8 @@
-"""Knobs that make no difference leave no rows."""
+"""Knobs and values that make no difference leave no rows."""
 
 import json
 
-from lightmeter.idle_knobs import idle_knobs
+from lightmeter.idle_knobs import needless
 from lightmeter.knob_words import Visit
 from lightmeter.realtime.renderer import Renderer
 
@@ -17,21 +17,22 @@ def grid(a: tuple, b: tuple) -> list[Visit]:
     return [Visit({"a": x, "b": y}, ("a", "b")) for x in a for y in b]
 
 
-def test_of_a_star_a_knob_is_idle_when_none_of_its_values_differs_from_the_current_setting():
-    visits = star(a=(1, 2), b=(1,), c=(1, 2))
-    # b differs; c differs in one of its values.
-    assert idle_knobs(visits, ["same", "same", "same", "other", "same", "else"]) == {"a": [1, 2]}
+def test_of_a_star_nothing_is_needed_that_does_not_differ_from_the_current_setting():
+    visits = star(a=(1, 2), b=(1, 2), c=(1, 2, 3))
+    # None of a's values differs; b's do, and not from one another; of c the second does not.
+    pictures = ["here", "here", "here", "other", "other", "else", "here", "third"]
+    assert needless(visits, pictures) == {"a": [1, 2], "c": [6]}
 
 
 def test_a_value_alone_says_nothing_of_its_knob():
-    assert idle_knobs(grid((0, 1), (5,)), ["same", "other"]) == {}
+    assert needless(grid((0, 1), (5,)), ["same", "other"]) == {}
 
 
 def test_of_a_grid_a_knob_is_idle_when_it_never_matters():
     visits = grid((0, 1), (0, 1))
-    assert idle_knobs(visits, ["x", "x", "y", "y"]) == {"b": [1, 3]}
-    assert idle_knobs(visits, ["x", "x", "y", "z"]) == {}  # b matters where a is 1
-    assert idle_knobs(visits, ["x", "x", "x", "x"]) == {"a": [2, 3], "b": [1]}
+    assert needless(visits, ["x", "x", "y", "y"]) == {"b": [1, 3]}
+    assert needless(visits, ["x", "x", "y", "z"]) == {}  # b matters where a is 1
+    assert needless(visits, ["x", "x", "x", "x"]) == {"a": [2, 3], "b": [1]}
 
 
 def test_a_sweep_tells_in_a_line_what_changes_nothing(run, monkeypatch, tmp_path):
