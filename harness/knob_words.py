@@ -3,9 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 
 from lightmeter.failures import UsageError
 from lightmeter.realtime.effect import Effect, Knobs, KnobValue
+
+MOST_SETTINGS = 256
+"""Of a grid. A setting takes seconds; all values of all knobs of one effect would be thousands of settings."""
 
 
 @dataclass(frozen=True)
@@ -21,22 +25,22 @@ class Visit:
     varied: tuple[str, ...]
 
 
-def visits(effect: Effect, current: Knobs, words: Sequence[str] = ()) -> list[Visit]:
+def visits(effect: Effect, current: Knobs, words: Sequence[str] = (), grid: bool = True) -> list[Visit]:
     """The settings to measure, each once.
 
     Args:
         current: every knob's value where nothing is varied.
-        words: "NAME" or "NAME=v1,v2,…"; several give their full grid, none at all every knob that declares values
-            for a sweep, one at a time.
+        words: "NAME" or "NAME=v1,v2,…"; none at all: every knob that declares values for a sweep, one at a time.
+        grid: whether several that are named give their full grid; else these too are varied one at a time.
 
     Raises:
-        UsageError: a knob is named twice or has no values, or there is nothing to vary.
+        UsageError: a knob is named twice or has no values, there is nothing to vary, or the grid is too large.
         EffectError: the effect has no such knob, or the knob takes no such value.
     """
     values = asked(effect, words) if words else declared(effect)
     if not values:
         raise UsageError(f"{effect.name} has no knob that declares values for a sweep{_others(effect)}")
-    return _grid(values, current) if words else _star(values, current)
+    return _grid(values, current) if words and grid else _star(values, current)
 
 
 def declared(effect: Effect) -> dict[str, tuple[KnobValue, ...]]:
@@ -72,6 +76,12 @@ def _star(values: Mapping[str, Sequence[KnobValue]], current: Knobs) -> list[Vis
 def _grid(values: Mapping[str, Sequence[KnobValue]], current: Knobs) -> list[Visit]:
     """Every combination."""
     names = tuple(values)
+    sides = [len(set(listed)) for listed in values.values()]
+    if prod(sides) > MOST_SETTINGS:
+        raise UsageError(
+            f"--knob: a grid of {' × '.join(map(str, sides))} = {prod(sides)} settings; expected at most "
+            f"{MOST_SETTINGS}: give fewer values (--knob NAME=v1,v2), or --one-at-a-time"
+        )
     combinations = [dict(zip(names, chosen, strict=True)) for chosen in product(*values.values())]
     return _once([Visit({**current, **combination}, names) for combination in combinations])
 

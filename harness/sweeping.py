@@ -1,7 +1,10 @@
 """Error against run time: every setting of an effect measured for both, and the path tracer beside them."""
 
-from collections.abc import Mapping, Sequence
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from lightmeter.candidates.candidate import Candidate
 from lightmeter.candidates.gathering import gather
@@ -9,10 +12,14 @@ from lightmeter.candidates.judging import judge
 from lightmeter.convergence import convergence
 from lightmeter.device import fingerprint
 from lightmeter.failures import UsageError
+from lightmeter.idle_knobs import needless
 from lightmeter.knob_words import Visit, declared, visits
 from lightmeter.measuring import Question, answers
+from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.measurement import Measurement
+from lightmeter.metrics.told_apart import SquaredError, told_apart
 from lightmeter.progress import Report, silent
+from lightmeter.realtime.baking import Baking
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.display import display_transform
@@ -29,16 +36,39 @@ from lightmeter.truth import Truth
 ROUNDS, FRAMES, WARM_UP = 4, 5, 3
 """Every setting is timed for `FRAMES` frames in each round, so that what else the machine does in the meantime
 falls on all settings alike and does not look like a trend."""
+KEPT_BAKING = 1000.0
+"""Milliseconds of baking from which on it is kept for the other rounds; less is done again, and needs no memory."""
 
 
 @dataclass(eq=False)
 class Measured:
-    """A setting as far as it has been measured."""
+    """A setting as far as it has been measured.
 
+    Attributes:
+        picture: equal for settings whose judged pictures are equal bit for bit.
+        squared: by view, what RMSEs are told apart by.
+        bakes: milliseconds of every time that the effect baked; none where it bakes nothing.
+        baking: what the plan's effects baked, where that is kept.
+    """
+
+    effect: str
     plan: Plan
     visit: Visit
+    picture: bytes
     errors: Mapping[str, Mapping[str, Measurement]]
+    squared: Mapping[str, SquaredError]
     recordings: list[Recording] = field(default_factory=list)
+    bakes: list[float] = field(default_factory=list)
+    baking: Baking | None = None
+
+    def time(self, renderer: Renderer) -> None:
+        """Another round of frames, and what was baked for them."""
+        self.recordings.append(renderer.record(FRAMES, WARM_UP, self.effect))
+        if renderer.baking is self.baking:
+            return
+        baked = renderer.baking.milliseconds
+        self.bakes += [baked[self.effect]] if self.effect in baked else []
+        self.baking = renderer.baking if sum(baked.values()) >= KEPT_BAKING else None
 
 
 class Sweeping:
@@ -86,7 +116,7 @@ class Sweeping:
             self._report("settings", done, len(self._wanted))
             self._measured[name].append(self._measure(name, visit))
         self._report("settings", len(self._wanted), len(self._wanted))
-        everything = [item for listed in self._measured.values() for item in listed]
+        everything = [item for name in self._measured for item in self._kept(name)]
         total = (ROUNDS - 1) * len(everything)
         for number in range(ROUNDS - 1):
             # Forth and back, so that a steady drift cancels.
@@ -94,10 +124,11 @@ class Sweeping:
             for done, item in enumerate(order):
                 self._report("times", number * len(everything) + done, total)
                 # One renderer at a time: maps of every setting at once may not fit the device's memory.
-                item.recordings.append(self._renderer(item.plan).record(FRAMES, WARM_UP))
+                item.time(self._renderer(item.plan, item.baking))
         self._report("times", total, total)
-        for point in convergence(self._truth, self._display, self._goal(), self._curve_seconds, self._report):
-            self._curve.append(point)
+        if goal := self._goal():
+            for point in convergence(self._truth, self._display, goal, self._curve_seconds, self._report):
+                self._curve.append(point)
         self._complete = True
 
     def _see_others(self) -> None:
@@ -122,7 +153,7 @@ class Sweeping:
     def results(self) -> found.Sweep:
         """What was found so far."""
         times = [summarise(item.recordings) for listed in self._measured.values() for item in listed]
-        swept = [self._swept(name, listed) for name, listed in self._measured.items() if listed]
+        swept = [self._swept(name) for name, listed in self._measured.items() if listed]
         return found.Sweep(
             schema=found.SCHEMA,
             scene=self._truth.scene.name,
@@ -136,8 +167,8 @@ class Sweeping:
             others=self._others,
         )
 
-    def _renderer(self, plan: Plan) -> Renderer:
-        return Renderer(self._device, plan, self._truth.size)
+    def _renderer(self, plan: Plan, baking: Baking | None = None) -> Renderer:
+        return Renderer(self._device, plan, self._truth.size, baking)
 
     def _measure(self, name: str, visit: Visit) -> Measured:
         """Both errors of a setting, and its first round of times."""
@@ -148,7 +179,11 @@ class Sweeping:
         sides = {"effect": self._own_sides(renderer, name), "frame": whole}
         questions = {view: Question(found.METRICS, side) for view, side in sides.items()}
         errors = answers(questions, self._display, silent)
-        return Measured(plan, visit, errors, [renderer.record(FRAMES, WARM_UP)])
+        tested = (image for side in sides.values() for image in side.tested)
+        squared = {view: SquaredError.of(Comparison(side.tested, side.truth)) for view, side in sides.items()}
+        measured = Measured(name, plan, visit, _digest(tested), errors, squared)
+        measured.time(renderer)
+        return measured
 
     def _own_sides(self, renderer: Renderer, name: str) -> Sides:
         terms = renderer.plan.terms_of(name)
@@ -158,39 +193,66 @@ class Sweeping:
             return coverage_sides(renderer, self._truth, silent)
         return effect_sides(renderer, self._truth, silent, only=(name,))[name]
 
-    def _swept(self, name: str, listed: Sequence[Measured]) -> found.SweptEffect:
-        declaration = self._plan.effects[name][0]
-        passes = has_passes(self._plan, name)
+    def _kept(self, name: str) -> list[Measured]:
+        """The settings of an effect but for those of which another tells all."""
+        listed, idle = self._measured[name], self._idle(name)
+        told = {index for indices in idle.values() for index in indices}
+        return [item for index, item in enumerate(listed) if index not in told]
+
+    def _idle(self, name: str) -> dict[str, list[int]]:
+        listed = self._measured[name]
+        return needless([item.visit for item in listed], [item.picture for item in listed])
+
+    def _swept(self, name: str) -> found.SweptEffect:
+        idle, kept = self._idle(name), self._kept(name)
+        least = {view: _least([item.squared[view] for item in kept]) for view in found.VIEWS}
         return found.SweptEffect(
             effect=name,
             terms=self._plan.terms_of(name),
-            own_time="its passes" if passes else "the whole frame",
-            comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
-            settings=tuple(self._setting(name, item, passes) for item in listed),
+            own_time="its passes" if has_passes(self._plan, name) else "the whole frame",
+            comparable=self._of_light(name),
+            settings=tuple(self._setting(item, idle, least) for item in kept),
+            idle=tuple(self._idle_knob(name, knob, indices) for knob, indices in idle.items()),
         )
 
-    def _setting(self, name: str, item: Measured, passes: bool) -> found.Setting:
-        times = summarise(item.recordings)
-        own = times.of(name) if passes else times.frame
+    def _of_light(self, name: str) -> bool:
+        """Whether an effect's error is one of radiance, not of code values."""
+        return not set(self._plan.effects[name][0].terms) & set(DISPLAY_TERMS)
+
+    def _setting(self, item: Measured, idle: Iterable[str], least: Mapping[str, SquaredError]) -> found.Setting:
+        varied, times = item.visit.varied, {"effect": self._own_time(item), "frame": summarise(item.recordings).frame}
+        standings = {
+            view: found.Standing(
+                _timing(times[view]), item.errors[view], as_good=not told_apart(item.squared[view], least[view])
+            )
+            for view in found.VIEWS
+        }
         return found.Setting(
             knobs=dict(item.visit.knobs),
-            varied=item.visit.varied,
-            current=item.visit.knobs == self._plan.effects[name][1],
-            effect=found.Standing(_timing(own), item.errors["effect"]),
-            frame=found.Standing(_timing(times.frame), item.errors["frame"]),
+            varied=tuple(knob for knob in varied if knob not in idle) or varied,
+            current=item.visit.knobs == self._plan.effects[item.effect][1],
+            effect=standings["effect"],
+            frame=standings["frame"],
+            bake_ms=float(np.median(item.bakes)) if item.bakes else None,
         )
 
+    def _idle_knob(self, name: str, knob: str, indices: Sequence[int]) -> found.IdleKnob:
+        items = [self._measured[name][index] for index in indices]
+        times = [self._own_time(item).median for item in items]
+        values = dict.fromkeys(item.visit.knobs[knob] for item in items)
+        return found.IdleKnob(knob, tuple(values), min(times), max(times))
+
+    def _own_time(self, item: Measured) -> Time:
+        """Of an effect's passes, or of the frame where it has none."""
+        times = summarise(item.recordings)
+        own = times.of(item.effect) if has_passes(self._plan, item.effect) else None
+        return own or times.frame
+
     def _goal(self) -> dict[str, float]:
-        """The least error that the path tracer's is held against, by metric."""
-        standings = [
-            setting.standing(view)
-            for name, listed in self._measured.items()
-            for swept in [self._swept(name, listed)]
-            for setting in swept.settings
-            for view in found.VIEWS
-            if swept.comparable or view == "frame"
-        ]
-        return {metric: min(s.metrics[metric].value for s in standings) for metric in found.METRICS}
+        """The least error that the path tracer's is held against, by metric; empty where none is of radiance."""
+        swept = [one for one in map(self._swept, self._measured) if one.comparable]
+        standings = [s.standing(view) for one in swept for s in one.settings for view in one.views]
+        return {metric: min(s.metrics[metric].value for s in standings) for metric in found.METRICS if standings}
 
     def _notes(self, times: Sequence[Times]) -> list[str]:
         first = times[0]
@@ -198,10 +260,18 @@ class Sweeping:
         notes += [
             f"Times of the real-time renderer are {first.method}, the median of {first.frame.frames} frames in "
             f"{len(next(iter(self._measured.values()))[0].recordings)} rounds over all settings.",
+            "On the Pareto front is what is faster than every better setting there by more than the spreads of the two "
+            "times together.",
             "An effect's own error is that of the frame if all else were exact (RMSE); FLIP is of its buffer alone.",
         ]
+        if any(item.bakes for listed in self._measured.values() for item in listed):
+            notes.append(
+                "What an effect bakes is made once, before the first frame, and is in no frame's time: wall time with "
+                "the compilation of its shaders, once or (where it is short) the median over the rounds."
+            )
         notes += sorted({t.doubt for t in times if t.doubt})
-        floors = [e["frame"]["flip"].floor for listed in self._measured.values() for e in (m.errors for m in listed)]
+        lit = [item for name, listed in self._measured.items() if self._of_light(name) for item in listed]
+        floors = [item.errors["frame"]["flip"].floor for item in lit]
         if floors and floors[0] is not None:
             notes.append(
                 "FLIP is biased by the reference's noise, for the settings and for the path tracer: between two halves "
@@ -222,11 +292,13 @@ def has_passes(plan: Plan, name: str) -> bool:
     return any(step.effect == name for step in plan.steps)
 
 
-def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[str]) -> dict[str, list[Visit]]:
+def plan_visits(
+    scene: Scene, choice: Choice, name: str | None, words: Sequence[str], grid: bool = True
+) -> dict[str, list[Visit]]:
     """What to measure: one effect's settings, or (`name` None) those of every effect of the frame that has any.
 
     Args:
-        words: what `--knob` was given, see `knob_words.visits`.
+        words, grid: what `--knob` was given, and whether that makes a grid, see `knob_words.visits`.
 
     Raises:
         UsageError: the effect takes no part in the scene's frame, or there is nothing to vary.
@@ -237,7 +309,7 @@ def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[
         declaration = effect(name)
         if name not in plan.effects:
             raise UsageError(_absent(scene, choice, plan, name))
-        return {name: visits(declaration, plan.effects[name][1], words)}
+        return {name: visits(declaration, plan.effects[name][1], words, grid)}
     listed = {name: visits(e, knobs) for name, (e, knobs) in plan.effects.items() if declared(e)}
     if not listed:
         raise UsageError(f"no effect of {scene.name} has a knob to sweep; it has: {', '.join(plan.effects)}")
@@ -251,6 +323,18 @@ def _absent(scene: Scene, choice: Choice, plan: Plan, name: str) -> str:
     return message + (f"; `--use {name}` prefers it" if name in preferred.effects else "")
 
 
-def _timing(time: Time | None) -> outcome.Timing:
-    assert time is not None
+def _least(squared: Sequence[SquaredError]) -> SquaredError:
+    """The least that is finite, if any is."""
+    return min(squared, key=lambda error: error.value if np.isfinite(error.value) else np.inf)
+
+
+def _digest(images: Iterable[np.ndarray]) -> bytes:
+    """Equal for images that are equal bit for bit."""
+    state = hashlib.blake2b(digest_size=16)
+    for image in images:
+        state.update(np.ascontiguousarray(image))
+    return state.digest()
+
+
+def _timing(time: Time) -> outcome.Timing:
     return outcome.Timing(time.median, time.mad, time.frames)

@@ -60,17 +60,17 @@ class Renderer:
     """Renders one plan at one size. Everything is compiled, uploaded and baked once, here.
 
     Attributes:
-        baking: what the plan's effects baked, and in what time.
+        baking: what the plan's effects baked, and in what time; given, what another renderer of the plan baked.
     """
 
-    def __init__(self, device: Device, plan: Plan, size: tuple[int, int]) -> None:
+    def __init__(self, device: Device, plan: Plan, size: tuple[int, int], baking: Baking | None = None) -> None:
         self.device, self.plan, self.size = device, plan, size
         filtering = plan.effect_of("material")
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
         self._radiance_buffer = device.framebuffer([self._radiance])
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance, stored=plan.stored())
-        self.baking = Baking(device)
+        self.baking = baking or Baking(device)
         self._scattered = (
             FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
         )
@@ -137,22 +137,28 @@ class Renderer:
         """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""
         return summarise([self.record(frames, warm_up)])
 
-    def record(self, frames: int, warm_up: int) -> Recording:
+    def record(self, frames: int, warm_up: int, only: str | None = None) -> Recording:
         """Single times of `frames` frames after `warm_up`: in each round the whole frame, then its passes one by one.
 
         So a round's times were taken under the same conditions, and their ratio is a paired one.
+
+        Args:
+            only: the effect whose passes are wanted beside the whole; None: everyone's, and what sampling costs.
         """
         clock = Clock(self.device)
         for _ in range(warm_up):
             self.draw()
         whole: list[float] = []
         actions = self._scene_actions(tuple(self.offsets[0])) + self._display_actions()
+        actions = [action for action in actions if only in (None, action[1])]
         passes: list[tuple[str, str, list[float]]] = [(name, effect, []) for name, effect, _ in actions]
         for _ in range(frames):
             whole.append(clock.measure(self.draw))
             for (_, _, times), (_, _, action) in zip(passes, actions, strict=True):
                 times.append(clock.measure(action))
-        return Recording(whole, passes, self._coverage if self._sum else "", clock.method, clock.disagreement)
+        # What further samples cost is what the passes leave of the whole: with some of them only, nobody knows.
+        sampling = self._coverage if self._sum and only is None else ""
+        return Recording(whole, passes, sampling, clock.method, clock.disagreement)
 
     def capture(
         self, offset: tuple[float, float] = (0.0, 0.0), terms: bool = True, exact: Collection[str] = ()

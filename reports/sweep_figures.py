@@ -8,13 +8,16 @@ from typing import Any
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.significant import show_measurement, show_number
-from lightmeter.reports.sweep_results import VIEWS, CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
-from lightmeter.reports.sweep_table import crossing_clause, show_time
+from lightmeter.reports.sweep_results import CurvePoint, Other, Setting, SweptEffect, curve_of, show_knob
+from lightmeter.reports.sweep_table import crossing_clause, show_bake, show_time
 
 # Okabe & Ito 2008, Color Universal Design; those of them that are seen on white and on black. Each group has a
-# symbol of its own beside its colour.
+# symbol of its own beside its colour: there are knobs enough in one effect for colours to come again.
 GROUP_COLOURS = ("#0072B2", "#E69F00", "#009E73", "#56B4E9", "#CC79A7")
-GROUP_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "star")
+GROUP_SYMBOLS = (
+    *("circle", "square", "diamond", "triangle-up", "star"),
+    *("triangle-down", "pentagon", "hourglass", "triangle-left", "star-square"),
+)
 PATH_TRACER = "#D55E00"
 INK = "ink"
 """Stands for the page's text colour, dark or light."""
@@ -25,8 +28,7 @@ def figure(
 ) -> dict[str, Any]:
     """One plot, as JSON for plotly: settings, their front, the path tracer's curve, the crossovers, other renderers."""
     listed = [s for s in swept.settings if math.isfinite(s.standing(view).metrics[metric].value)]
-    comparable = view == "frame" or swept.comparable
-    points = list(curve) if comparable else []
+    points = list(curve) if swept.comparable else []
     shown = [o for o in others if view == "frame" and o.time_ms and _finite(o.metrics.get(metric))]
     values = [s.standing(view).metrics[metric].value for s in listed]
     values += [p.metrics[metric].value for p in [*points, *shown]]
@@ -37,6 +39,7 @@ def figure(
     if points:
         traces += [_curve(points, metric, floor), *_crossovers(listed, view, metric, floor)]
     traces += [_other(other, metric, floor) for other in shown]
+    traces.append(_names(listed, view, metric, floor))
     unit = next((s.standing(view).metrics[metric].unit for s in listed), "")
     of = swept.effect if view == "effect" else "the frame"
     time = swept.own_time if view == "effect" else "the frame"
@@ -71,6 +74,13 @@ def _values(settings: Sequence[Setting], knob: str) -> tuple[int, bool]:
     return len(found), all(isinstance(value, (int, float)) for value in found)
 
 
+def _in_order(members: Sequence[Setting]) -> bool:
+    """Whether a line through settings means anything: they differ in one knob, which is a number and no choice."""
+    values = [{s.knobs[name] for s in members} for name in (members[0].knobs if members else ())]
+    differing = [found for found in values if len(found) > 1]
+    return len(differing) == 1 and not any(isinstance(value, (str, bool)) for value in differing[0])
+
+
 def _settings(lines: Mapping[str, Sequence[Setting]], view: str, metric: str, floor: float) -> list[dict[str, Any]]:
     traces = []
     for index, (name, members) in enumerate(lines.items()):
@@ -81,7 +91,7 @@ def _settings(lines: Mapping[str, Sequence[Setting]], view: str, metric: str, fl
         traces.append(
             {
                 "name": escape(name),
-                "mode": "lines+markers",
+                "mode": "lines+markers" if _in_order(members) else "markers",
                 "x": [t.median for t in times],
                 "y": [max(m.value, floor) for m in measured],
                 "error_x": _bar([t.mad for t in times], [t.mad for t in times], colour),
@@ -105,7 +115,7 @@ def _hover(setting: Setting, view: str, metric: str) -> str:
     lines = [
         f"<b>{escape(setting.label)}</b>" + (" (current)" if setting.current and setting.varied else ""),
         f"{label(metric)} {escape(show_measurement(measured))}",
-        f"{show_time(standing.time_ms)} ms",
+        f"{show_time(standing.time_ms)} ms" + (f", baked in {show_bake(setting)} ms" if setting.bake_ms else ""),
         *(["on the Pareto front"] if standing.front.get(metric) else []),
     ]
     if measured.value <= 0:
@@ -116,9 +126,7 @@ def _hover(setting: Setting, view: str, metric: str) -> str:
 
 def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
     """A stair: what is reached at a time stays reached until the next setting of the front is affordable."""
-    on = sorted(
-        (s for s in listed if s.standing(view).front.get(metric)), key=lambda s: s.standing(view).time_ms.median
-    )
+    on = _on_front(listed, view, metric)
     return {
         "name": "Pareto front",
         "mode": "lines",
@@ -128,6 +136,29 @@ def _front(listed: Sequence[Setting], view: str, metric: str, floor: float) -> d
         "opacity": 0.55,
         "hoverinfo": "skip",
     }
+
+
+def _names(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
+    """The front's settings by name: below them, where no other can be, and the fastest's inside the plot."""
+    on = _on_front(listed, view, metric)
+    return {
+        "name": "names",
+        "mode": "markers+text",
+        "x": [s.standing(view).time_ms.median for s in on],
+        "y": [max(s.standing(view).metrics[metric].value, floor) for s in on],
+        "text": [escape(s.label) for s in on],
+        "textposition": ["bottom right", *["bottom left"] * len(on)][: len(on)],
+        "textfont": {"size": 11, "color": INK},
+        "marker": {"size": 16, "opacity": 0},  # keeps the text off the symbol
+        "hoverinfo": "skip",
+        "showlegend": False,
+    }
+
+
+def _on_front(listed: Sequence[Setting], view: str, metric: str) -> list[Setting]:
+    """The front, the fastest first."""
+    on = [s for s in listed if s.standing(view).front.get(metric)]
+    return sorted(on, key=lambda s: s.standing(view).time_ms.median)
 
 
 def _current(listed: Sequence[Setting], view: str, metric: str, floor: float) -> dict[str, Any]:
@@ -245,5 +276,5 @@ def _bar(plus: Sequence[float], minus: Sequence[float], colour: str) -> dict[str
 def figures(
     swept: SweptEffect, curve: Sequence[CurvePoint], metrics: Sequence[str], others: Sequence[Other] = ()
 ) -> Mapping[str, Any]:
-    """View to metric to figure."""
-    return {view: {metric: figure(swept, curve, view, metric, others) for metric in metrics} for view in VIEWS}
+    """View to metric to figure, for the views that tell its settings apart."""
+    return {view: {metric: figure(swept, curve, view, metric, others) for metric in metrics} for view in swept.views}

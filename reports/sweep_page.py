@@ -14,7 +14,7 @@ from lightmeter.reports.results_json import to_json
 from lightmeter.reports.significant import show_interval, show_value
 from lightmeter.reports.sweep_figures import figures
 from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Sweep, SweptEffect, to_csv
-from lightmeter.reports.sweep_table import conclusions, crossing, show_time
+from lightmeter.reports.sweep_table import conclusions, crossing, remarks, show_bake, show_time
 from lightmeter.reports.truth_words import truth_words
 
 
@@ -57,17 +57,18 @@ def _subtitle(sweep: Sweep) -> str:
 
 
 def _section(swept: SweptEffect) -> dict[str, Any]:
-    tables = [
-        {
-            "view": view,
-            "metric": metric,
-            "rows": [_row(setting, view, metric) for setting in swept.settings],
-            "sentences": [s for s in conclusions(swept, view) if s.startswith(f"Least {label(metric)}")],
-        }
-        for view in VIEWS
-        for metric in METRICS
-    ]
-    return {"name": swept.effect, "terms": ", ".join(swept.terms), "tables": tables}
+    tables = [_table(swept, view, metric) for view in VIEWS for metric in METRICS]
+    terms = ", ".join(swept.terms)
+    return {"name": swept.effect, "terms": terms, "tables": tables, "bakes": swept.bakes, "remarks": remarks(swept)}
+
+
+def _table(swept: SweptEffect, view: str, metric: str) -> dict[str, Any]:
+    if view in swept.views:
+        rows = [_row(setting, view, metric) for setting in swept.settings]
+        sentences = [s for s in conclusions(swept, view) if s.startswith(f"Least {label(metric)}")]
+    else:
+        rows, sentences = [], [f"{swept.effect} changes code values, and no light of the frame."]
+    return {"view": view, "metric": metric, "rows": rows, "sentences": sentences}
 
 
 def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:
@@ -81,6 +82,7 @@ def _row(setting: Setting, view: str, metric: str) -> dict[str, Any]:
         "unit": measured.unit,
         "how": measured.how,
         "time": show_time(standing.time_ms),
+        "bake": show_bake(setting),
         "front": standing.front.get(metric, False),
         "crossing": crossing(standing, metric),
     }

@@ -5,7 +5,7 @@
 
 import csv
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -29,12 +29,14 @@ class Standing:
         metrics: the error.
         front: metric to whether the setting is on the Pareto front.
         path_tracer: metric to when the path tracer is as good; without the metrics for which that cannot be said.
+        as_good: whether its RMSE cannot be told from the least, by their difference over the same batches.
     """
 
     time_ms: Timing
     metrics: Metrics
     front: Mapping[str, bool] = field(default_factory=dict)
     path_tracer: Mapping[str, Crossover] = field(default_factory=dict)
+    as_good: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class Setting:
         varied: the knobs that set it apart from the current setting, or all that a grid varies.
         current: whether it is the setting that the sweep went out from.
         effect, frame: the two views.
+        bake_ms: what was made once, before the first frame, took; None where nothing was.
     """
 
     knobs: Mapping[str, Any]
@@ -53,6 +56,7 @@ class Setting:
     current: bool
     effect: Standing
     frame: Standing
+    bake_ms: float | None = None
 
     def standing(self, view: str) -> Standing:
         """The standing in one of `VIEWS`."""
@@ -61,7 +65,22 @@ class Setting:
     @property
     def label(self) -> str:
         """What sets it apart: "resolution 512, filter hard"."""
-        return ", ".join(f"{name} {show_knob(self.knobs[name])}" for name in self.varied) or "current setting"
+        return _words(self.knobs, self.varied) or "current setting"
+
+
+@dataclass(frozen=True)
+class IdleKnob:
+    """A knob of which some values, or all, make no difference to what is judged, bit for bit.
+
+    Attributes:
+        values: those that were tried and are not listed among the settings.
+        least_ms, most_ms: what the effect took with them.
+    """
+
+    knob: str
+    values: tuple[Any, ...]
+    least_ms: float
+    most_ms: float
 
 
 @dataclass(frozen=True)
@@ -74,6 +93,7 @@ class SweptEffect:
         own_time: what its own time is: "its passes", or "the whole frame" where it has none of its own.
         comparable: whether its own error is one of radiance, as the path tracer's is.
         settings: in the order they were asked for.
+        idle: knobs and values that were tried and make no difference.
     """
 
     effect: str
@@ -81,6 +101,23 @@ class SweptEffect:
     own_time: str
     comparable: bool
     settings: tuple[Setting, ...]
+    idle: tuple[IdleKnob, ...] = ()
+
+    @property
+    def views(self) -> tuple[str, ...]:
+        """Those of `VIEWS` that tell its settings apart: what changes code values changes no light of the frame."""
+        return tuple(VIEWS) if self.comparable else ("effect",)
+
+    @property
+    def bakes(self) -> bool:
+        """Whether anything is made once, before the first frame."""
+        return any(setting.bake_ms is not None for setting in self.settings)
+
+    @property
+    def here(self) -> str:
+        """What the current setting is, where others are told by how they differ: "resolution 1024, bias 0.5"."""
+        varied = dict.fromkeys(name for setting in self.settings for name in setting.varied)
+        return next((_words(s.knobs, varied) for s in self.settings if s.current and not s.varied), "")
 
 
 @dataclass(frozen=True)
@@ -140,12 +177,16 @@ def show_knob(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+def _words(knobs: Mapping[str, Any], names: Iterable[str]) -> str:
+    return ", ".join(f"{name} {show_knob(knobs[name])}" for name in names)
+
+
 def ranked(swept: SweptEffect, curve: Sequence[CurvePoint]) -> SweptEffect:
     """The same settings with their place on the front, and when the path tracer is as good."""
-    views = {view: _ranked([s.standing(view) for s in swept.settings]) for view in VIEWS}
-    views["frame"] = [_crossed(standing, curve) for standing in views["frame"]]
+    views = {view: [s.standing(view) for s in swept.settings] for view in VIEWS}
+    views |= {view: _ranked(views[view]) for view in swept.views}
     if swept.comparable:
-        views["effect"] = [_crossed(standing, curve) for standing in views["effect"]]
+        views = {view: [_crossed(standing, curve) for standing in standings] for view, standings in views.items()}
     settings = [
         replace(setting, effect=own, frame=frame)
         for setting, own, frame in zip(swept.settings, views["effect"], views["frame"], strict=True)
@@ -156,7 +197,12 @@ def ranked(swept: SweptEffect, curve: Sequence[CurvePoint]) -> SweptEffect:
 def best(swept: SweptEffect, view: str, metric: str) -> Setting | None:
     """The setting of the least error; the faster of equals. None where none has a finite one."""
     on_front = [s for s in swept.settings if s.standing(view).front.get(metric)]
-    return min(on_front, key=lambda s: s.standing(view).metrics[metric].value, default=None)
+
+    def rank(setting: Setting) -> tuple[float, float]:
+        standing = setting.standing(view)
+        return standing.metrics[metric].value, standing.time_ms.median
+
+    return min(on_front, key=rank, default=None)
 
 
 def curve_of(points: Sequence[CurvePoint], metric: str) -> list[tuple[float, float]]:
@@ -165,7 +211,8 @@ def curve_of(points: Sequence[CurvePoint], metric: str) -> list[tuple[float, flo
 
 
 def _ranked(standings: Sequence[Standing]) -> list[Standing]:
-    fronts = {m: pareto_front([(s.time_ms.median, s.metrics[m].value) for s in standings]) for m in METRICS}
+    spreads = [s.time_ms.mad for s in standings]
+    fronts = {m: pareto_front([(s.time_ms.median, s.metrics[m].value) for s in standings], spreads) for m in METRICS}
     return [
         replace(standing, front={metric: front[index] for metric, front in fronts.items()})
         for index, standing in enumerate(standings)
@@ -182,7 +229,7 @@ def to_csv(sweep: Sweep) -> str:
 
     Columns are the knobs by name, and `VIEW_…` for both views: milliseconds with their median absolute deviation, and
     for every metric value, interval, whether the setting is on the front, and the path tracer's time with its relation
-    ("=", "<=", ">"). A cell is empty where there is nothing.
+    ("=", "<=", ">"); and `bake_ms` where something is baked. A cell is empty where there is nothing.
     """
     rows = list(_rows(sweep))
     columns = list(dict.fromkeys(column for row in rows for column in row))
@@ -202,7 +249,7 @@ def _rows(sweep: Sweep) -> Iterator[dict[str, Any]]:
             for view in VIEWS:
                 standing = setting.standing(view)
                 row |= _cells(view, standing.time_ms, standing.metrics, standing)
-            yield row
+            yield row if setting.bake_ms is None else row | {"bake_ms": setting.bake_ms}
     for point in sweep.path_tracer:
         yield {"what": "path tracer", "spp": point.spp} | _cells("frame", point.time_ms, point.metrics)
     for other in sweep.others:

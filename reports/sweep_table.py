@@ -10,7 +10,7 @@ from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import label
 from lightmeter.reports.results import Timing
 from lightmeter.reports.significant import show_measurement, show_number, show_value
-from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Standing, Sweep, SweptEffect, best
+from lightmeter.reports.sweep_results import METRICS, VIEWS, Setting, Standing, Sweep, SweptEffect, best, show_knob
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -18,15 +18,17 @@ if TYPE_CHECKING:
 
 
 def sweep_tables(sweep: Sweep) -> Group:
-    """Two tables per effect, its own error and the frame's; the best setting of each; the path tracer; notes."""
+    """A table per effect and view, with the best setting; the path tracer; notes."""
     from rich.console import Group
     from rich.text import Text
 
     parts: list = []
     for swept in sweep.effects:
-        for view in VIEWS:
+        for view in swept.views:
             parts.append(_table(swept, view))
             parts += [Text(sentence) for sentence in conclusions(swept, view)] + [Text()]
+        beside = remarks(swept)
+        parts += [Text(sentence) for sentence in beside] + [Text()] * bool(beside)
     if sweep.path_tracer:
         parts.append(_curve(sweep))
     if sweep.others:
@@ -36,7 +38,7 @@ def sweep_tables(sweep: Sweep) -> Group:
 
 
 def conclusions(swept: SweptEffect, view: str) -> list[str]:
-    """For each metric a sentence: the best setting, and when the path tracer is as good."""
+    """For each metric: the best setting, when the path tracer is as good, and how many settings may be so too."""
     sentences = []
     for metric in METRICS:
         setting = best(swept, view, metric)
@@ -48,8 +50,33 @@ def conclusions(swept: SweptEffect, view: str) -> list[str]:
             f"{show_number(standing.time_ms.median)} ms"
         )
         clause = crossing_clause(standing, metric)
-        sentences.append(f"{text}; {clause}." if clause else f"{text}.")
+        equals = _as_good(swept, view, setting) if metric == "rmse" else ""
+        sentences.append((f"{text}; {clause}." if clause else f"{text}.") + equals)
     return sentences
+
+
+def _as_good(swept: SweptEffect, view: str, least: Setting) -> str:
+    """A sentence on the settings whose RMSE cannot be told from the least; "" where there are none."""
+    others = [s for s in swept.settings if s.standing(view).as_good and s is not least]
+    if not others:
+        return ""
+    fastest = min([least, *others], key=lambda s: s.standing(view).time_ms.median)
+    beside = f", the fastest of them {fastest.label} in {show_number(fastest.standing(view).time_ms.median)} ms"
+    return f" {len(others)} more cannot be told from it{'' if fastest is least else beside}."
+
+
+def remarks(swept: SweptEffect) -> list[str]:
+    """What the current setting is, and a sentence for each knob of which values make no difference."""
+    return [f"Current setting: {swept.here}."] * bool(swept.here) + [
+        f"No row for {idle.knob} ({', '.join(map(show_knob, idle.values))}): the same picture bit for bit, in "
+        f"{_between(idle.least_ms, idle.most_ms)} ms."
+        for idle in swept.idle
+    ]
+
+
+def _between(least: float, most: float) -> str:
+    numbers = dict.fromkeys((show_number(least), show_number(most)))
+    return " to ".join(numbers)
 
 
 def crossing(standing: Standing, metric: str) -> str:
@@ -81,20 +108,26 @@ def _table(swept: SweptEffect, view: str) -> Table:
     table.add_column("setting")
     for metric in METRICS:
         table.add_column(label(metric), justify="right", no_wrap=True)
-    for column in ("ms", "front", "path tracer (RMSE)"):
+    for column in ("ms", *["baked, ms"] * swept.bakes, "front", "path tracer (RMSE)"):
         table.add_column(column, justify="right", no_wrap=True)
     for setting in swept.settings:
-        table.add_row(*map(Text, _cells(setting, view)), style="bold" if setting.current else "")
+        table.add_row(*map(Text, _cells(setting, view, swept.bakes)), style="bold" if setting.current else "")
     return table
 
 
-def _cells(setting: Setting, view: str) -> list[str]:
+def show_bake(setting: Setting) -> str:
+    """What baking took, once."""
+    return "–" if setting.bake_ms is None else show_number(setting.bake_ms)
+
+
+def _cells(setting: Setting, view: str, bakes: bool) -> list[str]:
     standing = setting.standing(view)
     front = [label(metric) for metric in METRICS if standing.front.get(metric)]
     return [
         setting.label,
         *(_bare(standing.metrics[metric]) for metric in METRICS),
         show_time(standing.time_ms),
+        *[show_bake(setting)] * bakes,
         ", ".join(front),
         crossing(standing, "rmse"),
     ]

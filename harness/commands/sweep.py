@@ -25,6 +25,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "that declares values, one at a time)",
     )
     parser.add_argument(
+        "--one-at-a-time", action="store_true", help="vary the knobs of --knob one at a time, not over their grid"
+    )
+    parser.add_argument(
         "--curve",
         type=options.number,
         metavar="S",
@@ -56,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
 
     scene = options.scene(args)
     choice = Choice(chosen.only, chosen.without, chosen.use, chosen.settings)
-    wanted = plan_visits(scene, choice, args.effect, args.knob)
+    wanted = plan_visits(scene, choice, args.effect, args.knob, grid=not args.one_at_a_time)
     folder = options.output_folder(args.output or f"lightmeter-out/{scene.name}-sweep")
 
     from lightmeter.groundtruth.store import Store

@@ -25,13 +25,13 @@ function inked(value, ink) {
 function layout(figure) {
     const ink = colour('--ink'), line = colour('--line'), panel = colour('--panel');
     const axis = {
-        gridcolor: line, linecolor: line, zeroline: false, tickcolor: line, automargin: true,
-        minor: { showgrid: true, gridcolor: line, griddash: 'dot' }, exponentformat: 'power',
+        gridcolor: line, linecolor: line, zeroline: false, tickcolor: line, automargin: true, exponentformat: 'power',
     };
     return {
         paper_bgcolor: panel, plot_bgcolor: panel, font: { color: ink, family: 'system-ui, sans-serif', size: 13 },
-        margin: { l: 70, r: 20, t: 10, b: 50 }, hovermode: 'closest',
+        margin: { l: 70, r: 44, t: 10, b: 50 }, hovermode: 'closest',
         hoverlabel: { bgcolor: panel, bordercolor: line, font: { color: ink }, align: 'left' },
+        modebar: { orientation: 'v' },  // beside the plot: above it, it would lie on the legend
         legend: { orientation: 'h', y: 1.02, yanchor: 'bottom' },
         xaxis: { ...axis, ...figure.layout.xaxis }, yaxis: { ...axis, ...figure.layout.yaxis },
     };
@@ -43,8 +43,9 @@ async function draw() {
         table.hidden = table.dataset.view !== view || table.dataset.metric !== metric;
     }
     for (const place of document.querySelectorAll('.plot')) {
-        const figure = plots[place.dataset.effect][view][metric];
-        await Plotly.react(place, inked(figure.data, colour('--ink')), layout(figure), config);
+        const figure = plots[place.dataset.effect][view]?.[metric];
+        place.hidden = !figure;
+        if (figure) await Plotly.react(place, inked(figure.data, colour('--ink')), layout(figure), config);
     }
     document.body.dataset.shown = `${view} ${metric}`;
 }

@@ -11,7 +11,7 @@ import pytest
 
 from lightmeter import sweeping
 from lightmeter.failures import UsageError
-from lightmeter.knob_words import visits
+from lightmeter.knob_words import declared, visits
 from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.mse import rmse
 from lightmeter.options import Budget
@@ -21,6 +21,7 @@ from lightmeter.realtime.discovery import effect, effects
 from lightmeter.realtime.effect import EffectError
 from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.realtime.renderer import Renderer
+from lightmeter.reports.sweep_figures import GROUP_COLOURS, GROUP_SYMBOLS
 from lightmeter.scenes.load import load
 from lightmeter.sides import coverage_sides, effect_sides
 from lightmeter.truth import Truth
@@ -34,6 +35,11 @@ def test_the_values_that_a_knob_declares_for_a_sweep_are_values_it_takes(name):
     for knob in effect(name).knobs:
         assert [knob.read(value, name) for value in knob.sweep] == list(knob.sweep)
         assert len(set(knob.sweep)) == len(knob.sweep)
+
+
+def test_no_two_knobs_of_an_effect_look_alike():
+    """Colours come again, symbols do not."""
+    assert len(set(GROUP_SYMBOLS)) >= max(len(declared(e)) for e in effects().values()) > len(GROUP_COLOURS)
 
 
 def test_a_star_goes_out_from_the_current_setting():
@@ -55,6 +61,27 @@ def test_several_knobs_give_their_grid():
         (kind, side, 0.25) for kind in shadow.knob("filter").sweep for side in (32, 64)
     ]
     assert all(v.varied == ("filter", "resolution", "bias") for v in found)
+
+
+def test_several_knobs_can_be_varied_one_at_a_time():
+    shadow = effect("shadow_map")
+    current = shadow.settings({})
+    found = visits(shadow, current, ["filter=hard", "resolution=32,64"], grid=False)
+    assert [visit.varied for visit in found] == [(), ("filter",), ("resolution",), ("resolution",)]
+    assert [visit.knobs["resolution"] for visit in found] == [current["resolution"]] * 2 + [32, 64]
+
+
+def test_a_grid_has_an_end(refused):
+    """Repeated values count once: 256 settings are allowed, and no more."""
+    shadow = effect("shadow_map")
+    sixteen = ",".join(map(str, range(16, 32)))
+    tenths = ",".join(f"{n / 10}" for n in [*range(16), *range(16)])
+    words = [f"resolution={sixteen}", f"bias={tenths}"]
+    assert len(visits(shadow, shadow.settings({}), words)) == 256
+    with pytest.raises(UsageError, match=r"16 × 16 × 2 = 512 settings; expected at most 256: .*--one-at-a-time"):
+        visits(shadow, shadow.settings({}), [*words, "filter=hard,pcf3"])
+    many = [word for knob in effect("cook_torrance").knobs if knob.sweep for word in ("--knob", knob.name)]
+    assert "3 × 6 × 4 × 5 × 3 = 1080 settings" in refused("sweep", "torus", "cook_torrance", *many)
 
 
 def test_a_knob_without_declared_values_needs_them():
@@ -107,6 +134,19 @@ def test_supersampling_costs_what_the_frame_costs(run):
     one, two = swept["settings"]
     assert one["effect"]["metrics"]["rmse"]["low"] > two["effect"]["metrics"]["rmse"]["high"]
     assert two["effect"]["time_ms"] == two["frame"]["time_ms"]
+    assert [s[view]["as_good"] for view in ("effect", "frame") for s in (one, two)] == [False, True, False, True]
+
+
+def test_passes_of_other_effects_are_not_timed_where_one_is_wanted():
+    choice = Choice(settings={"supersampling": {"grid": 2}, "shadow_map": {"resolution": 32}})
+    renderer = Renderer(Device(), compile_plan(load("posts"), effects(), choice), (16, 16))
+    everyone, own = renderer.record(2, 0), renderer.record(2, 0, only="shadow_map")
+    names = [entry[:2] for entry in everyone.passes if entry[1] == "shadow_map"]
+    assert 0 < len(names) < len(everyone.passes)
+    assert [entry[:2] for entry in own.passes] == names
+    assert all(len(times) == 2 for *_, times in own.passes) and len(own.frame) == 2
+    # What further samples cost is the whole less all passes, and is not known from some of them.
+    assert (everyone.sampling, own.sampling) == ("supersampling", "")
 
 
 def test_supersampling_is_judged_at_all_its_samples():
@@ -129,6 +169,36 @@ def test_supersampling_is_judged_at_all_its_samples():
     assert np.allclose(four.tested[0], some.tested[0], rtol=1e-6, atol=0)
 
 
+def test_what_an_effect_bakes_is_shown_apart(run, tmp_path):
+    words = ("--environment", "studio", "--use", "spherical_harmonics", "--size", "16x16", *BRIEF)
+    found = run("sweep", "plane", "spherical_harmonics", "--knob", "order=2,3", *words)
+    assert found.code == 0, found.err
+    (swept,) = json.loads((tmp_path / "out" / "sweep.json").read_text())["effects"]
+    assert all(setting["bake_ms"] > 0 for setting in swept["settings"])
+    assert "baked, ms" in found.out
+
+
+@pytest.mark.parametrize(("kept_from", "times"), [(0.0, 1), (math.inf, 1 + 3)])
+def test_what_takes_long_to_bake_is_baked_once(run, tmp_path, monkeypatch, kept_from, times):
+    """Else in every round."""
+    from lightmeter.realtime.effects.spherical_harmonics.passes import Passes
+
+    bake, baked = Passes.bake, []
+
+    def counted(self):
+        baked.append(self)
+        return bake(self)
+
+    monkeypatch.setattr(Passes, "bake", counted)
+    monkeypatch.setattr(sweeping, "KEPT_BAKING", kept_from)
+    words = ("--environment", "studio", "--use", "spherical_harmonics", "--size", "16x16", *BRIEF)
+    found = run("sweep", "plane", "spherical_harmonics", "--knob", "order=3", *words)
+    assert found.code == 0, found.err
+    assert len(baked) == times
+    (setting,) = json.loads((tmp_path / "out" / "sweep.json").read_text())["effects"][0]["settings"]
+    assert setting["bake_ms"] > 0
+
+
 def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
     chosen = ("--only", "lambert,constant_ambient,narkowicz,srgb")
     found = run("sweep", "posts", "--all", "--size", "16x16", *chosen, *BRIEF, "--no-store")
@@ -136,11 +206,22 @@ def test_all_effects_are_swept_beside_one_curve(run, tmp_path):
     document = json.loads((tmp_path / "out" / "sweep.json").read_text())
     ambient, tone = document["effects"]
     assert (ambient["effect"], tone["effect"]) == ("constant_ambient", "narkowicz")
-    assert "constant_ambient: effect alone" in found.out and "narkowicz: whole frame" in found.out
+    assert "constant_ambient: effect alone" in found.out and "narkowicz: effect alone" in found.out
     # The error of a tone curve is one of code values, which no path tracer's radiance is held against.
     assert ambient["comparable"] and all("rmse" in s["effect"]["path_tracer"] for s in ambient["settings"])
     assert not tone["comparable"] and all(s["effect"]["path_tracer"] == {} for s in tone["settings"])
-    assert all("rmse" in s["frame"]["path_tracer"] for s in tone["settings"])
+    # Nor does it change the frame's light: that is the same for all settings, and tells nothing of them.
+    assert "constant_ambient: whole frame" in found.out and "narkowicz: whole frame" not in found.out
+    assert len({s["frame"]["metrics"]["rmse"]["value"] for s in tone["settings"]}) == 1
+    assert all(s["frame"]["front"] == {} for s in tone["settings"])
+
+
+def test_where_no_error_is_one_of_radiance_no_path_is_traced_for_a_curve(run):
+    found = run("sweep", "plane", "narkowicz", "--knob", "prescale=0.4,0.5", "--size", "16x16", *BRIEF, "--json")
+    assert found.code == 0, found.err
+    assert found.json["complete"] and found.json["path_tracer"] == []
+    assert not any("path tracer" in note for note in found.json["notes"])
+    assert all(setting["bake_ms"] is None for setting in found.json["effects"][0]["settings"])
 
 
 def test_what_was_measured_before_an_interrupt_is_written(run, tmp_path, monkeypatch):

@@ -24,7 +24,7 @@ def _shadow(resolution: int, filter: str, ms: float, rmse: float, flip: float = 
 
 
 def make_sweep(complete: bool = True) -> Sweep:
-    """A grid of five settings: one beaten, one perfect, one that failed; and an effect whose unit is a code value."""
+    """A grid with one setting beaten, one perfect, one that failed; and a baking effect with errors of code values."""
     curve = [CurvePoint(n, Timing(4.0 * n, 0.1, 5), _standing(4.0 * n, 0.4 / n**0.5, 0.5).metrics) for n in (1, 4, 16)]
     shadow = SweptEffect(
         "shadow_map",
@@ -46,7 +46,12 @@ def make_sweep(complete: bool = True) -> Sweep:
         False,
         tuple(
             Setting(
-                {"scale": s}, (() if s == 0.6 else ("scale",)), s == 0.6, _standing(s, s, s), _standing(3, 0.1, 0.2)
+                {"scale": s},
+                () if s == 0.6 else ("scale",),
+                s == 0.6,
+                _standing(s, s, s),
+                _standing(3, 0.1, 0.2),
+                bake_ms=100 * s,
             )
             for s in (0.6, 0.8)
         ),

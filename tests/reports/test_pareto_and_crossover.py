@@ -32,6 +32,29 @@ def test_the_front_is_what_nothing_beats(points, front):
     assert pareto_front(points) == front
 
 
+@pytest.mark.parametrize(
+    ("times", "spread", "front"),
+    [
+        # In all of these the errors rise from the first to the last.
+        ((10.0, 9.0), 0.0, [True, True]),
+        ((10.0, 9.0), 0.5, [True, True]),  # 1 ms is more than √2 · 0.5 = 0.71
+        ((10.0, 9.0), 1.0, [True, False]),  # and less than √2
+        ((9.0, 10.0), 1.0, [True, False]),  # worse and no faster
+        # The second is not told from the first, nor the third from the second; but the third from the first.
+        ((10.0, 9.0, 8.0), 1.0, [True, False, True]),
+    ],
+)
+def test_what_noise_makes_look_fast_is_not_on_the_front(times, spread, front):
+    points = [(time, error) for error, time in enumerate(times, 1)]
+    assert pareto_front(points, [spread] * len(points)) == front
+    assert pareto_front(points[::-1], [spread] * len(points)) == front[::-1]
+
+
+def test_equally_good_points_are_both_on_the_front_until_their_times_are_told_apart():
+    assert pareto_front([(10.0, 1.0), (9.0, 1.0)], [1.0, 1.0]) == [True, True]
+    assert pareto_front([(10.0, 1.0), (9.0, 1.0)], [0.5, 0.5]) == [False, True]
+
+
 CURVE = [(10.0, 0.4), (20.0, 0.2), (80.0, 0.1), (320.0, 0.05)]
 """By hand: from the second point on the error halves as the time becomes four times as long, as 1/√n does."""
 

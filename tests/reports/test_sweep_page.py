@@ -4,14 +4,16 @@ import csv
 import io
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from lightmeter.reports.results_json import to_json
 from lightmeter.reports.sweep_figures import figure, groups
-from lightmeter.reports.sweep_page import write_sweep
+from lightmeter.reports.sweep_page import render_sweep, write_sweep
 from lightmeter.reports.sweep_results import best, to_csv
+from lightmeter.reports.sweep_table import conclusions, remarks
 
 from .chromium_pipe import Page
 from .report_page import needs_chromium
@@ -71,11 +73,27 @@ def test_view_and_metric_can_be_chosen(page: Page) -> None:
 
 
 @needs_chromium
+def test_the_plot_s_buttons_cover_neither_plot_nor_legend(page: Page) -> None:
+    choose(page, "effect", "rmse")
+    edge = "Math.min(...[...document.querySelectorAll('.plot .modebar')].map(b => b.getBoundingClientRect().left))"
+    ends = "Math.max(...[...document.querySelectorAll('.plot .nsewdrag, .plot .legend')]"
+    assert page.evaluate(edge) >= page.evaluate(ends + ".map(b => b.getBoundingClientRect().right))")
+
+
+@needs_chromium
 def test_code_values_have_no_path_tracer_beside_them(page: Page) -> None:
     choose(page, "effect", "rmse")
     assert trace(page, "path tracer", 0) and not trace(page, "path tracer", 1)
-    choose(page, "frame", "rmse")
-    assert trace(page, "path tracer", 1)
+
+
+@needs_chromium
+def test_what_changes_no_light_has_no_plot_of_the_frame(page: Page) -> None:
+    hidden = "[...document.querySelectorAll('.plot')].map(place => place.hidden)"
+    choose(page, "effect", "rmse")
+    assert page.evaluate(hidden) == [False, False]
+    choose(page, "frame", "flip")
+    assert page.evaluate(hidden) == [False, True]
+    assert "narkowicz changes code values, and no light of the frame." in page.evaluate("document.body.innerText")
 
 
 @needs_chromium
@@ -108,13 +126,15 @@ def test_json_and_csv_say_the_same() -> None:
     for row, (effect, setting) in zip(rows, settings, strict=False):
         assert row["what"] == effect and row["current"] == str(int(setting["current"]))
         assert all(row[name] == str(value) for name, value in setting["knobs"].items())
+        same(row["bake_ms"], setting["bake_ms"])
         for view in ("effect", "frame"):
             standing = setting[view]
             same(row[f"{view}_ms"], standing["time_ms"]["median"])
             for name, measured in standing["metrics"].items():
                 for column, value in (("", measured["value"]), ("_low", measured["low"]), ("_high", measured["high"])):
                     same(row[f"{view}_{name}{column}"], value)
-                assert row[f"{view}_{name}_front"] == str(int(standing["front"][name]))
+                on_front = standing["front"].get(name)
+                assert row[f"{view}_{name}_front"] == ("" if on_front is None else str(int(on_front)))
                 crossed = standing["path_tracer"].get(name)
                 same(row[f"{view}_{name}_path_tracer_ms"], crossed and crossed["ms"])
                 assert row[f"{view}_{name}_path_tracer_relation"] == (crossed["relation"] if crossed else "")
@@ -137,6 +157,58 @@ def same(cell: str, value) -> None:
 def test_a_grid_has_a_line_per_value_of_its_shortest_knob() -> None:
     settings = make_sweep().effects[0].settings
     assert {name: len(members) for name, members in groups(settings).items()} == {"filter hard": 2, "filter pcf3": 3}
+
+
+def test_settings_that_are_as_good_as_far_as_is_known_are_told_with_the_best() -> None:
+    shadow = make_sweep().effects[0]
+
+    def sentence(*good: str) -> str:
+        settings = [replace(s, effect=replace(s.effect, as_good=s.label in good)) for s in shadow.settings]
+        return conclusions(replace(shadow, settings=tuple(settings)), "effect")[0]
+
+    least, faster = "resolution 256, filter pcf3", "resolution 128, filter pcf3"
+    assert "cannot be told" not in sentence(least)
+    assert sentence(least, faster).endswith(f" 1 more cannot be told from it, the fastest of them {faster} in 1.50 ms.")
+
+
+def test_the_front_s_settings_are_named_in_the_plot() -> None:
+    sweep = make_sweep()
+    shadow = sweep.effects[0]
+    names = next(d for d in figure(shadow, sweep.path_tracer, "effect", "rmse")["data"] if d["name"] == "names")
+    on_front = [s for s in shadow.settings if s.effect.front["rmse"]]
+    assert len(on_front) == 3
+    assert names["text"] == [s.label for s in on_front]
+    assert names["x"] == [s.effect.time_ms.median for s in on_front]
+
+
+def test_what_is_baked_has_a_column_where_there_is_anything() -> None:
+    shadow, tone = make_sweep().effects
+    alone = [render_sweep(replace(make_sweep(), effects=(effect,))) for effect in (shadow, tone)]
+    assert "Baked once" not in alone[0]
+    assert "Baked once" in alone[1] and '<td class="right">60.0</td>' in alone[1]
+
+
+def test_what_the_current_setting_is_can_be_read() -> None:
+    """Of a star; a grid names all values of each of its settings."""
+    shadow, tone = make_sweep().effects
+    assert "Current setting: scale 0.6." in remarks(tone)
+    assert not any("Current" in sentence for sentence in remarks(shadow))
+    assert "Current setting: scale 0.6." in render_sweep(make_sweep())
+
+
+def test_a_line_is_drawn_through_numbers_and_not_through_choices() -> None:
+    shadow = make_sweep().effects[0]
+
+    def mode(settings, name: str) -> str:
+        drawn = figure(replace(shadow, settings=tuple(settings)), (), "effect", "rmse")["data"]
+        return next(d["mode"] for d in drawn if d["name"] == name)
+
+    assert mode(shadow.settings, "filter hard") == "lines+markers"  # over the resolution
+    current = replace(shadow.settings[1], varied=())
+    assert mode([current, replace(shadow.settings[0], varied=("filter",))], "filter") == "markers"
+    assert mode([current, replace(shadow.settings[3], varied=("resolution",))], "resolution") == "lines+markers"
+    switched = [replace(current, knobs={"on": on}, varied=("on",) * on) for on in (False, True)]
+    assert mode(switched, "on") == "markers"
 
 
 def test_the_best_is_the_least_error_and_what_failed_is_not_drawn() -> None:
