@@ -87,7 +87,7 @@ def _verdict(removed: Measurement) -> Verdict:
 
 def _cost(player: Player, ms: float | None) -> str:
     if not player.approximated:
-        return "; no effect approximates it"
+        return "; no effect that takes part approximates it"
     return f"; it takes {show_number(ms)} ms" if ms is not None else ""
 
 
