@@ -99,7 +99,7 @@ def add_truth(parser: argparse.ArgumentParser, more: Sequence[str] = ()) -> None
 
 def add_choice(parser: argparse.ArgumentParser) -> None:
     """Which effects take part, with which knobs."""
-    parser.add_argument("--only", metavar="EFFECT,…", help="take just these effects")
+    parser.add_argument("--only", metavar="EFFECT,…", default="", help="take just these effects")
     parser.add_argument("--without", metavar="EFFECT,…", default="", help="leave these effects out")
     parser.add_argument("--use", metavar="EFFECT,…", default="", help="prefer these among effects for the same term")
     parser.add_argument(
@@ -204,7 +204,7 @@ def words(args: argparse.Namespace) -> Words:
     """The choice of effects.
 
     Raises:
-        UsageError: where a setting is not EFFECT.KNOB=VALUE, or `--only` names nothing.
+        UsageError: where a setting is not EFFECT.KNOB=VALUE.
     """
     settings: dict[str, dict[str, Any]] = {}
     for text in args.set:
@@ -212,10 +212,7 @@ def words(args: argparse.Namespace) -> Words:
         if not match:
             raise UsageError(f"--set: expected EFFECT.KNOB=VALUE, such as shadow_map.resolution=2048, got {text!r}")
         settings.setdefault(match[1], {})[match[2]] = match[3]
-    only = names(args.only or "")
-    if args.only is not None and not only:
-        raise UsageError("--only: expected the names of effects with commas between them, got none")
-    return Words(only, names(args.without), names(args.use), settings)
+    return Words(names(args.only), names(args.without), names(args.use), settings)
 
 
 def check_seconds(seconds: float | None, name: str = "--seconds") -> None:

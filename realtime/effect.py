@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.errors import closest
+from lightmeter.scenes.errors import closest, listed
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.terms import TERMS
 
@@ -24,7 +24,7 @@ class EffectError(ValueError):
 def nearest(name: str, known: list[str]) -> str:
     """A hint for a misspelt name: "did you mean 'x'?", else the known names."""
     close = closest(name, known)
-    return f"did you mean {close!r}?" if close else f"there are: {', '.join(sorted(known))}"
+    return f"did you mean {close!r}?" if close else f"there are: {listed(known)}"
 
 
 @dataclass(frozen=True)

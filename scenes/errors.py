@@ -49,12 +49,16 @@ def closest(name: str, names: Iterable[str]) -> str | None:
     return min(longer, key=len) if longer else next(iter(get_close_matches(name, names, n=1)), None)
 
 
+def listed(names: Iterable[str], limit: int = 30) -> str:
+    """`names` in their order; of more than `limit` the first, and how many others there are."""
+    names = sorted(names)
+    rest = f" and {len(names) - limit} more" if len(names) > limit else ""
+    return ", ".join(names[:limit]) + rest
+
+
 def nearest(name: str, valid: Iterable[str]) -> str:
     """A remedy that names the closest of the `valid` names, or lists them when none is close."""
     names = sorted(valid)
     if close := closest(name, names):
         return f"did you mean {close!r}?"
-    if not names:
-        return ""
-    listed = ", ".join(names[:30]) + (", …" if len(names) > 30 else "")
-    return f"valid: {listed}"
+    return f"valid: {listed(names)}" if names else ""

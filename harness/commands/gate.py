@@ -66,7 +66,8 @@ def run(args: argparse.Namespace) -> int:
     start = time.perf_counter()
     trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, report)]
+        stressed = _stress(rules.stress, args, config, report)  # first: a wrong name is told at once
+        verdicts = [*decide(trials, seconds, report), *stressed]
     code = _exit_code(verdicts, args.strict)
     document = _document(verdicts, code, confidence, time.perf_counter() - start)
     if folder is not None:
@@ -116,13 +117,21 @@ def _needs_words(verdict) -> bool:
     return isnan(verdict.measurement.value) or verdict.scene == "stress"
 
 
-def _stress(entries, args: argparse.Namespace, report) -> list:
-    """The verdicts on shading functions; none where the run is narrowed to scenes or to a candidate."""
+def _stress(entries, args: argparse.Namespace, config: Path, report) -> list:
+    """The verdicts on shading functions; none where the run is narrowed to scenes or to a candidate.
+
+    Raises:
+        UsageError: a limit is on what does not exist, or reaches no input; names the file.
+    """
     if not entries or args.scenes or words.candidates(args, args.config):
         return []
+    from lightmeter.realtime.effect import EffectError
     from lightmeter.stress_limits import judge_all
 
-    return judge_all(entries, report)
+    try:
+        return judge_all(entries, report)
+    except (EffectError, UsageError) as error:
+        raise UsageError(f"{config}: stress: {error}") from None
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:
