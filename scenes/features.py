@@ -26,7 +26,7 @@ def missing_terms(scene: Scene) -> dict[str, str]:
     """The terms that the scene does not have, each with the reason."""
     missing = {
         "surface": "every shape is rendered from the same triangles on both sides",
-        "transmission": "the scene has no dielectric solids",
+        "transmission": "dielectric solids are not read yet",
         "glare": "the camera has no aperture to diffract at",
         "exposure": "the camera's exposure is set by hand",
     }
