@@ -73,19 +73,20 @@ def load(
     """
     manifest = _manifest(folder)
     surface = "--true-surface " if is_true_surface(scene) else ""
-    again = f"make it again with `lightmeter reference {scene.name} {surface}-o {folder}`"
+    command = f"lightmeter reference {scene.name} {surface}-o {folder}"
+    again = f"make it again with `{command}`"
     if manifest["scene_key"] != content.scene_key(scene):
         raise ReferenceFolderError(f"{folder / MANIFEST}: {_of_another(manifest, scene)}{again}")
     width, height = manifest["size"]
     if manifest["truth"] != scattering:
         raise ReferenceFolderError(
             f"{folder / MANIFEST}: expected the truth {scattering!r}, got {shown(manifest['truth'])}; "
-            f"pass the `--truth` that it was made with, or {again} --truth {scattering}"
+            f"pass the `--truth` that it was made with, or make it again with `{command} --truth {scattering}`"
         )
     if size is not None and (width, height) != tuple(size):
         raise ReferenceFolderError(
             f"{folder / MANIFEST}: expected {size[0]} × {size[1]} pixels, got {width} × {height}; "
-            f"pass `--size {width}x{height}`, or {again} --size {size[0]}x{size[1]}"
+            f"pass `--size {width}x{height}`, or make it again with `{command} --size {size[0]}x{size[1]}`"
         )
     for what, mine in (("versions", content.versions()), ("definition", content.definition_key()[:16])):
         if manifest[what] != mine:

@@ -15,9 +15,10 @@ from lightmeter.families import Families
 from lightmeter.flip_shares import flip_errors
 from lightmeter.game import Game
 from lightmeter.metrics.shapley import orders_for
+from lightmeter.noisy_errors import NoisyErrors
 from lightmeter.progress import Report, silent
 from lightmeter.reports import results as outcome
-from lightmeter.squared_shares import squared_errors, squared_maps
+from lightmeter.squared_shares import SquaredErrors, squared_errors, squared_maps
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +82,28 @@ def attribute(
             subsets=len(game.orders.sets),
             exhaustive=game.orders.exhaustive,
             seconds_per_subset=seconds,
+            together=tuple(
+                outcome.Together(
+                    (game.names[i], game.names[j]), {m: found.removed(i, j) for m, found in errors.items()}
+                )
+                for i, j in (pairs_that_compensate(game, errors) if game.orders.exhaustive else ())
+            ),
         ),
         {"mse": squared_maps(game), "flip": flip_maps},
     )
+
+
+def pairs_that_compensate(game: Game, errors: Mapping[str, SquaredErrors | NoisyErrors]) -> list[tuple[int, int]]:
+    """Players that make the frame worse where they alone are exact, each with the one it makes up for.
+
+    That is the partner with whom it removes most, where that is more than either removes alone.
+    """
+    players, found = range(len(game.names)), dict[tuple[int, int], None]()
+    for error in errors.values():
+        alone = [error.removed(i).value for i in players]
+        for i in (i for i in players if alone[i] < 0):
+            others = {j: error.removed(i, j).value for j in players if j != i}
+            best = max(others, key=others.__getitem__, default=i)
+            if best != i and others[best] > max(alone[best], 0.0):
+                found.setdefault((min(i, best), max(i, best)))
+    return list(found)

@@ -59,6 +59,20 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(f"{message.removeprefix('argument ')}; see `{self.prog} --help`")
 
 
+class Version(argparse.Action):
+    """Prints the version, which is looked up only then."""
+
+    def __init__(self, *where, **how):
+        super().__init__(*where, nargs=0, **how)
+
+    def __call__(self, parser, *_rest):
+        """Raises SystemExit, as `--help` does."""
+        from importlib.metadata import version
+
+        print(f"lightmeter {version('lightmeter')}")
+        parser.exit()
+
+
 def _parse(args: list[str]) -> argparse.Namespace | None:
     """The options; None where no command was given, and the help is printed instead.
 
@@ -99,6 +113,7 @@ def _parser(name: str | None) -> argparse.ArgumentParser:
         description="Measures how far a real-time frame is from the light that physics would give.",
         epilog="`lightmeter COMMAND --help` explains a command.",
     )
+    parser.add_argument("--version", action=Version, help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     for command, summary in COMMANDS.items():
         description = summary[0].upper() + summary[1:] + "."

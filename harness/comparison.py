@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lightmeter.absences import remedies, unheard
 from lightmeter.ambient_errors import ambient_errors
 from lightmeter.attribution import Shares, attribute
 from lightmeter.bounce_errors import bounce_errors
@@ -125,6 +126,10 @@ def compare(
         UsageError: no candidate gave a frame, or one does not fit the scene.
     """
     plan = compile_plan(scene, effects(), choice)
+    how = {"store": store, "report": report, "say": say}
+    truth = Truth(plan.true_scene, size, budget or Budget(), seed, folder=folder, scattering=scattering, **how)
+    if folder is not None:
+        _ = truth.reference  # one that does not fit is told at once
     device = Device()
     renderer = Renderer(device, plan, size)
     frame = renderer.render()
@@ -134,8 +139,6 @@ def compare(
     report("frame time", 0, 1)
     times = renderer.measure()
     report("frame time", 1, 1)
-    how = {"store": store, "report": report, "say": say}
-    truth = Truth(plan.true_scene, size, budget or Budget(), seed, folder=folder, scattering=scattering, **how)
     reference = truth.reference
     if reference.reused:
         say(f"reused {reference.reused} of {truth.batches} reference batches")
@@ -173,6 +176,8 @@ def compare(
         left_out=tuple(outcome.LeftOut(item.what, item.why) for item in plan.left_out),
         nonfinite=bad,
         notes=scene.notes
+        + unheard(plan, choice)
+        + remedies(plan)
         + ((truth.doubt,) if truth.doubt else ())
         + _notes(renderer, times)
         + others.notes

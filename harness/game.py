@@ -42,9 +42,13 @@ class Game:
         """(p, m): the player's share by each sample of orders is this times the errors of the m sets."""
         return self.orders.weights[:, player]
 
-    def removed_weights(self, player: int) -> np.ndarray:
-        """(1, m): the error that goes away where the player alone is made exact."""
-        return self._unit(0) - self._unit(1 << player)
+    def removed_weights(self, *players: int) -> np.ndarray:
+        """(1, m): the error that goes away where these players alone are made exact.
+
+        Raises:
+            KeyError: that set is not evaluated, as orders are sampled.
+        """
+        return self._unit(0) - self._unit(sum(1 << player for player in players))
 
     def total_weights(self) -> np.ndarray:
         """(1, m): the error with nobody exact, the frame's own."""

@@ -39,9 +39,9 @@ class NoisyErrors:
         """A player's Shapley share, signed."""
         return self._measured(self.game.share_weights(player), "Shapley value")
 
-    def removed(self, player: int) -> Measurement:
-        """The error that goes away where the player alone is made exact, signed."""
-        return self._measured(self.game.removed_weights(player), "frame less frame with this exact")
+    def removed(self, *players: int) -> Measurement:
+        """The error that goes away where these players alone are made exact, signed."""
+        return self._measured(self.game.removed_weights(*players), "frame less frame with this exact")
 
     def total(self) -> Measurement:
         """The error with nobody exact."""

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from lightmeter.scenes.errors import closest, listed
 from lightmeter.scenes.model import Light, Scene
 from lightmeter.scenes.terms import TERMS
 
@@ -23,8 +23,8 @@ class EffectError(ValueError):
 
 def nearest(name: str, known: list[str]) -> str:
     """A hint for a misspelt name: "did you mean 'x'?", else the known names."""
-    close = get_close_matches(name, known, n=1, cutoff=0.5)
-    return f"did you mean {close[0]!r}?" if close else f"there are: {', '.join(sorted(known))}"
+    close = closest(name, known)
+    return f"did you mean {close!r}?" if close else f"there are: {listed(known)}"
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,14 @@
 """What to make exact first, in plain sentences: the error that goes away where one approximation alone is exact."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.metric_words import error_phrase
 from lightmeter.reports.percentages import percent_of
-from lightmeter.reports.results import Attribution, Player, Results
+from lightmeter.reports.results import Attribution, Player, Results, Together
 from lightmeter.reports.significant import show_measurement, show_number
 
 Verdict = Literal["fix", "unsure", "worse", "exact"]
@@ -19,25 +20,27 @@ _NOTHING = 5e-4
 
 @dataclass(frozen=True)
 class Advice:
-    """What comes of making one player exact.
+    """What comes of making one player exact, or two whose errors make up for one another.
 
     Attributes:
+        name: of the player; of two with "and" between them.
         verdict: "fix": its interval of removed error is above 0; "worse": below, so that its error makes up for
             another's; "unsure": it holds 0, or there is none; "exact": all of it is too small to count.
         removed: in percent of the frame's error where that can be told from 0, else in the metric's unit.
         sentence: says it, with the interval and the milliseconds.
     """
 
-    player: Player
+    name: str
     verdict: Verdict
     removed: Measurement
     sentence: str
 
 
 def fix_first(results: Results, attribution: Attribution, metric: str) -> list[Advice]:
-    """One advice per player: what is worth fixing, then what noise hides, then what would make the frame worse.
+    """One advice per player, and per pair that is worth more.
 
-    Within each, the player that removes most comes first.
+    What is worth fixing comes first, then what noise hides, then what would make the frame worse. Within each, what
+    removes most comes first.
     """
     times = {effect.effect: effect.time_ms.median for effect in results.effects if effect.time_ms}
     total = attribution.total[metric]
@@ -46,6 +49,9 @@ def fix_first(results: Results, attribution: Attribution, metric: str) -> list[A
         for player in attribution.players
         if metric in player.removed
     ]
+    pairs = (pair for pair in attribution.together if metric in pair.removed)
+    joint = (_joint(pair, attribution.players, total, metric) for pair in pairs)
+    found += [advice for advice in joint if advice is not None]
     return sorted(found, key=lambda advice: (_ORDER.index(advice.verdict), -_sortable(advice.removed.value)))
 
 
@@ -68,7 +74,24 @@ def _advice(player: Player, removed: Measurement, total: Measurement, metric: st
         sentence = f"What making {player.name} exact would remove is not known: {show_measurement(shown)}."
     else:
         sentence = f"What making {player.name} exact would remove cannot be told from noise: {show_measurement(shown)}."
-    return Advice(player, verdict, shown, sentence)
+    return Advice(player.name, verdict, shown, sentence)
+
+
+def _joint(pair: Together, players: Sequence[Player], total: Measurement, metric: str) -> Advice | None:
+    """What comes of making both exact; None where that does not stand out of what either removes alone."""
+    removed = pair.removed[metric]
+    alone = [
+        player.removed[metric].high for player in players if player.name in pair.names and metric in player.removed
+    ]
+    if _verdict(removed) != "fix" or any(high is None or high >= (removed.low or 0.0) for high in alone):
+        return None
+    shown = percent_of(removed, total) or removed
+    name = " and ".join(pair.names)
+    sentence = (
+        f"Making {name} exact together would remove {show_measurement(shown)} of the frame's {error_phrase(metric)}: "
+        "their errors make up for one another."
+    )
+    return Advice(name, "fix", shown, sentence)
 
 
 def _counts_for_nothing(removed: Measurement, total: Measurement) -> bool:
@@ -87,7 +110,7 @@ def _verdict(removed: Measurement) -> Verdict:
 
 def _cost(player: Player, ms: float | None) -> str:
     if not player.approximated:
-        return "; no effect approximates it"
+        return "; no effect that takes part approximates it"
     return f"; it takes {show_number(ms)} ms" if ms is not None else ""
 
 

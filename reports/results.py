@@ -110,6 +110,19 @@ class Player:
 
 
 @dataclass(frozen=True)
+class Together:
+    """Two players whose errors make up for one another.
+
+    Attributes:
+        names: of both; one of them alone makes the frame worse where it is made exact.
+        removed: metric to the error that goes away where both are made exact, signed.
+    """
+
+    names: tuple[str, str]
+    removed: Metrics
+
+
+@dataclass(frozen=True)
 class Attribution:
     """How the frame's error is shared out: for each metric total = Σ share + residual.
 
@@ -120,6 +133,7 @@ class Attribution:
         subsets: how many sets of exact players were evaluated.
         exhaustive: all sets were; else permutations were sampled.
         seconds_per_subset: metric to what one set cost.
+        together: pairs of players that are worth making exact together, and not one of them alone.
     """
 
     total: Metrics
@@ -128,6 +142,7 @@ class Attribution:
     subsets: int
     exhaustive: bool
     seconds_per_subset: Mapping[str, float] = field(default_factory=dict)
+    together: tuple[Together, ...] = ()
 
 
 @dataclass(frozen=True)

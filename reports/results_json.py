@@ -44,6 +44,7 @@ from lightmeter.reports.results import (
     Reference,
     Results,
     Timing,
+    Together,
 )
 
 _NONFINITE = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
@@ -278,7 +279,13 @@ def _attribution(node: _Node) -> Attribution:
         subsets=node.get("subsets").integer(),
         exhaustive=node.get("exhaustive").flag(),
         seconds_per_subset={name: item.number() for name, item in node.get("seconds_per_subset", {}).nodes().items()},
+        together=tuple(_together(item) for item in node.get("together", []).items()),
     )
+
+
+def _together(node: _Node) -> Together:
+    first, second = node.get("names").items(2)
+    return Together((first.text(), second.text()), _metrics(node.get("removed")))
 
 
 def _player(node: _Node) -> Player:

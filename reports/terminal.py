@@ -147,7 +147,7 @@ def _tails(results: Results) -> list[Text]:
 def _fix_first(results: Results, attribution: Attribution, metric: str) -> Text:
     """The players whose exactness removes most, at most three of them."""
     fixes = [item for item in fix_first(results, attribution, metric) if item.verdict == "fix"]
-    named = [f"{item.player.name} {show_measurement(item.removed)}" for item in fixes[:_MOST_FIXES]]
+    named = [f"{item.name} {show_measurement(item.removed)}" for item in fixes[:_MOST_FIXES]]
     what = ", ".join(named) or "nothing stands out of the noise"
     return reason(f"fix first ({error_phrase(metric)} removed)", what)
 

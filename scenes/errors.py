@@ -42,13 +42,23 @@ def shown(value: object, limit: int = 60) -> str:
     return text if len(text) <= limit else text[: limit - 1] + "…"
 
 
+def closest(name: str, names: Iterable[str]) -> str | None:
+    """The one of `names` that `name` is short for, else the one that it is most likely a misspelling of."""
+    name, names = name[:200], sorted(names)
+    longer = [one for one in names if len(name) > 2 and one.startswith(name)]
+    return min(longer, key=len) if longer else next(iter(get_close_matches(name, names, n=1)), None)
+
+
+def listed(names: Iterable[str], limit: int = 30) -> str:
+    """`names` in their order; of more than `limit` the first, and how many others there are."""
+    names = sorted(names)
+    rest = f" and {len(names) - limit} more" if len(names) > limit else ""
+    return ", ".join(names[:limit]) + rest
+
+
 def nearest(name: str, valid: Iterable[str]) -> str:
     """A remedy that names the closest of the `valid` names, or lists them when none is close."""
     names = sorted(valid)
-    close = get_close_matches(name[:200], names, n=1, cutoff=0.5)
-    if close:
-        return f"did you mean {close[0]!r}?"
-    if not names:
-        return ""
-    listed = ", ".join(names[:30]) + (", …" if len(names) > 30 else "")
-    return f"valid: {listed}"
+    if close := closest(name, names):
+        return f"did you mean {close!r}?"
+    return f"valid: {listed(names)}" if names else ""

@@ -72,7 +72,8 @@ def run(args: argparse.Namespace) -> int:
     start = time.perf_counter()
     trials = start_trials(pairs, confidence, read_baseline(rules.baseline))
     with progress_bar() as report:
-        verdicts = [*decide(trials, seconds, report), *_stress(rules.stress, args, config, report)]
+        stressed = _stress(rules.stress, args, config, report)  # first: a wrong name is told at once
+        verdicts = [*decide(trials, seconds, report), *stressed]
     code = _exit_code(verdicts, args.strict)
     document = _document(verdicts, code, confidence, time.perf_counter() - start)
     if folder is not None:
@@ -123,14 +124,22 @@ def _needs_words(verdict) -> bool:
 
 
 def _stress(entries, args: argparse.Namespace, config: Path, report) -> list:
-    """The verdicts on shading functions and stiff scenes; none where the run is narrowed to scenes or a candidate."""
+    """The verdicts on shading functions and stiff scenes; none where the run is narrowed to scenes or a candidate.
+
+    Raises:
+        UsageError: a limit is on what does not exist, or reaches no input; names the file.
+    """
     if not entries or args.scenes or words.candidates(args, args.config):
         return []
+    from lightmeter.realtime.effect import EffectError
     from lightmeter.stiff_limits import judge_scenes
     from lightmeter.stress_limits import judge_all
 
     functions = [entry for entry in entries if not entry.scene]
-    return [*judge_all(functions, report), *judge_scenes([e for e in entries if e.scene], config, report)]
+    try:
+        return [*judge_all(functions, report), *judge_scenes([e for e in entries if e.scene], config, report)]
+    except (EffectError, UsageError) as error:
+        raise UsageError(f"{config}: stress: {error}") from None
 
 
 def _update(pairs, path: Path, confidence: float, seconds: float | None) -> int:

@@ -145,8 +145,15 @@ def _read_png(path: Path, head: bytes, max_pixels: int) -> npt.NDArray[np.float3
     # Pillow's decoders raise what their parser happens to meet.
     except (OSError, SyntaxError, ValueError, EOFError, Image.DecompressionBombError) as error:
         raise ImageError(
-            "damaged or cut short", where=path, actual=str(error), remedy="Write or copy the file again"
+            "damaged or cut short", where=path, actual=_found(error), remedy="Write or copy the file again"
         ) from None
+
+
+def _found(error: Exception) -> str:
+    """What a decoder met; Pillow names the object in memory where it makes nothing of a file at all."""
+    from PIL import UnidentifiedImageError
+
+    return "nothing that decodes as a picture" if isinstance(error, UnidentifiedImageError) else str(error)
 
 
 def _opened(path: Path):

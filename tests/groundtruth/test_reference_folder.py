@@ -61,7 +61,9 @@ def test_another_scene_size_or_version_is_told(saved):
     path, _ = saved
     with pytest.raises(ReferenceFolderError, match=r"another scene.*lightmeter reference room -o"):
         folder.load(path, replace(SCENE, max_depth=2))
-    with pytest.raises(ReferenceFolderError, match=r"expected 20 × 6 pixels, got 10 × 6.*--size 10x6"):
+    with pytest.raises(
+        ReferenceFolderError, match=r"expected 20 × 6 pixels, got 10 × 6.*--size 10x6`.*`lightmeter .* --size 20x6`$"
+    ):
         folder.load(path, SCENE, (20, 6))
     manifest = json.loads((path / "manifest.json").read_text())
     (path / "manifest.json").write_text(json.dumps(manifest | {"versions": "mitsuba 2"}))
@@ -73,7 +75,10 @@ def test_another_scene_size_or_version_is_told(saved):
 def test_a_reference_of_the_other_truth_is_refused(saved, tmp_path):
     path, reference = saved
     assert json.loads((path / "manifest.json").read_text())["truth"] == "single"
-    with pytest.raises(ReferenceFolderError, match=r"expected the truth 'multiscatter', got 'single'.*--truth"):
+    with pytest.raises(
+        ReferenceFolderError,
+        match=r"expected the truth 'multiscatter', got 'single'.*`lightmeter .* --truth multiscatter`$",
+    ):
         folder.load(path, SCENE, scattering="multiscatter")
     folder.save(tmp_path / "other", SCENE, replace(reference, scattering="multiscatter"))
     with pytest.raises(ReferenceFolderError, match="expected the truth 'single', got 'multiscatter'"):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
+from lightmeter.attribution import pairs_that_compensate
 from lightmeter.comparison import compare
 from lightmeter.families import Layers
 from lightmeter.flip_shares import flip_errors
@@ -51,6 +52,21 @@ def test_shares_of_images_that_add_up_are_those_of_the_closed_form():
         np.testing.assert_allclose(found[name], maps[i], atol=1e-6)  # float32
     assert errors.residual().value == pytest.approx(residual, rel=1e-10)
     assert errors.total().value == pytest.approx(shares.sum() + residual, rel=1e-10)
+
+
+@pytest.mark.parametrize(("opposite", "found"), [(-0.9, [(0, 1)]), (0.9, [])])
+def test_players_whose_errors_cancel_are_a_pair(opposite, found):
+    """Errors d, -0.9 d and another: d alone exact leaves -0.9 d in place of 0.1 d, both exact leave the other."""
+    rng = np.random.default_rng(3)
+    d, other = 0.3 * rng.normal(size=(*SIZE, 3)), 0.02 * rng.normal(size=(*SIZE, 3))
+    truth = np.zeros((BATCHES, *SIZE, 3))
+    images = tuple((error[None], truth) for error in (d, opposite * d, other))
+    layers = Layers(tuple(Slot("indirect", (name,)) for name in "abc"), np.zeros((1, *SIZE, 3)), images)
+    game = Game(tuple("abc"), orders_for(3), SimpleNamespace(layers=lambda exact: layers), truth)
+    errors = squared_errors(game)
+    assert pairs_that_compensate(game, {"mse": errors}) == found
+    gone = (((1 + opposite) * d + other) ** 2).mean() - (other**2).mean()
+    assert errors.removed(0, 1).value == pytest.approx(gone, rel=1e-9)
 
 
 def test_beyond_ten_players_orders_are_sampled():

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from importlib.metadata import version
 
 import pytest
 
@@ -67,6 +68,9 @@ WRONG = [
     (("sweep", "plane", "gamma_22"), "--use gamma_22"),
     (("sweep", "plane", "srgb", "--only", "cook_torrance"), "not among the effects asked for"),
     (("sweep", "plane", "--all", "--only", "srgb"), "knob to sweep"),
+    (("compare", "plane", "--set", "shadow_map.res=3"), "did you mean 'resolution'?"),
+    (("compare", "plane", "--use", "reinhard"), "there are: area_as_point"),
+    (("--verson",), "'--version'"),
     (("scenes", "plane"), "'plane'"),
     (("store", "purge"), "prune"),
     (("store", "prune"), "--older-than"),
@@ -115,6 +119,11 @@ def test_a_store_that_cannot_be_written_is_one_message(run, monkeypatch, tmp_pat
     assert "file" in found.err
     assert found.err.count("\n") == 1
     assert (tmp_path / "out" / "manifest.json").exists()
+
+
+def test_the_version_is_that_of_the_package(run):
+    found = run("--version")
+    assert (found.code, found.out) == (0, f"lightmeter {version('lightmeter')}\n")
 
 
 def test_without_a_command_the_help_is_on_stderr(run):

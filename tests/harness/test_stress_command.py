@@ -125,7 +125,9 @@ def test_stress_limits_that_make_no_sense(refused, tmp_path):
     assert "not on several" in said('metric = "faults"\nmax = 0\neffect = "lambert"\nfunction = "lambert"')
     assert "did you mean 'grazing'" in said('metric = "faults"\nmax = 0\nregime = "grasing"\nfunction = "lambert"')
     assert "reaches no input" in said('metric = "digits"\nmin = 1\nalpha = 0.1\nfunction = "lambert"')
-    assert "did you mean 'lambert'" in said('metric = "faults"\nmax = 0\neffect = "lamberd"')
+    assert "toml: stress: there is no effect 'lamberd'; did you mean" in said(
+        'metric = "faults"\nmax = 0\neffect = "lamberd"'
+    )
 
 
 def test_stiff_scenes(run, tmp_path):

@@ -13,7 +13,7 @@ from lightmeter.reports.html import render_report
 from lightmeter.reports.object_content import object_content
 from lightmeter.reports.page_content import page_content
 from lightmeter.reports.percentages import percent_of
-from lightmeter.reports.results import Attribution, Effect, Frame, ObjectError, Player, Results, Timing
+from lightmeter.reports.results import Attribution, Effect, Frame, ObjectError, Player, Results, Timing, Together
 from lightmeter.reports.signed_bars import Axis
 from lightmeter.reports.terminal import comparison
 
@@ -76,14 +76,33 @@ def test_only_what_stands_out_of_noise_is_recommended(removed: Measurement, verd
 
 def test_a_term_without_effect_has_no_time_and_says_so() -> None:
     (advice,) = fix_first(*attributed(TOTAL, False, indirect=Measurement(0.1, 0.09, 0.11)), "mse")
-    assert advice.sentence.endswith("20.0 ± 2.0 % of the frame's squared error; no effect approximates it.")
+    assert advice.sentence.endswith(
+        "20.0 ± 2.0 % of the frame's squared error; no effect that takes part approximates it."
+    )
 
 
 def test_advice_is_sorted_by_what_it_removes_and_noise_comes_after() -> None:
     sure, small = Measurement(0.2, 0.19, 0.21), Measurement(0.1, 0.09, 0.11)
     noise, worse = Measurement(0.9, -0.1, 1.9), Measurement(-0.1, -0.2, -0.05)
     advice = fix_first(*attributed(TOTAL, worse=worse, noise=noise, small=small, sure=sure), "mse")
-    assert [item.player.name for item in advice] == ["sure", "small", "noise", "worse"]
+    assert [item.name for item in advice] == ["sure", "small", "noise", "worse"]
+
+
+@pytest.mark.parametrize(
+    ("low", "advised"),
+    [(0.29, True), (0.105, False), (-0.1, False)],  # beyond both alone; within the larger's interval; within noise
+)
+def test_two_that_make_up_for_one_another_are_advised_together(low: float, advised: bool) -> None:
+    alone = {"a": Measurement(-0.1, -0.2, -0.05), "b": Measurement(0.1, 0.09, 0.11)}
+    results, attribution = attributed(TOTAL, **alone)
+    both = Together(("a", "b"), {"mse": Measurement(0.3, low, 0.31, "W")})
+    advice = fix_first(results, dataclasses.replace(attribution, together=(both,)), "mse")
+    assert [item.name for item in advice] == [*(["a and b"] if advised else []), "b", "a"]
+    if advised:
+        assert advice[0].sentence == (
+            "Making a and b exact together would remove 60.0 ± 2.0 % of the frame's squared error: "
+            "their errors make up for one another."
+        )
 
 
 def test_a_frame_without_a_certain_error_has_no_percentages() -> None:

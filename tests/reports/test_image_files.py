@@ -116,6 +116,7 @@ HOSTILE = {
     "jpeg": (b"\xff\xd8\xff\xe0" + bytes(60), "not an image"),
     "exr magic only": (b"\x76\x2f\x31\x01", "cut short"),
     "exr old version": (b"\x76\x2f\x31\x01\x01\0\0\0" + bytes(40), "version"),
+    "png signature only": (b"\x89PNG\r\n\x1a\n\0\0\0", "nothing that decodes"),
     "png cut": (png(8, 8, 8, 2, os.urandom(25 * 8))[:120], "damaged|cut"),
     "png of a terabyte": (png(1_000_000, 1_000_000, 8, 2, b""), "too large"),
     "png that lies": (png(8000, 8000, 8, 2, b""), "bytes for the size in its header"),

@@ -10,7 +10,7 @@ import pytest
 from lightmeter.metrics.measurement import Measurement
 from lightmeter.reports.embedded_data import pack_image, unpack_image
 from lightmeter.reports.html import render_report, write_report
-from lightmeter.reports.results import Attribution, Frame, ObjectError, Player, Results
+from lightmeter.reports.results import Attribution, Frame, ObjectError, PassTime, Player, Results
 
 from .chromium_pipe import Page
 from .report_page import SHOWN, click, needs_chromium, open_report
@@ -206,6 +206,31 @@ def test_page_is_no_wider_than_the_window(page: Page, tmp_path: Path, width: int
     try:
         open_report(page, write_report(tmp_path, make_results(32), make_pairs(32)))
         assert page.evaluate("document.documentElement.scrollWidth") == width
+    finally:
+        page.send("Emulation.setDeviceMetricsOverride", width=1500, **size)
+
+
+@needs_chromium
+def test_long_knobs_stay_on_their_lines_and_bars_have_room(page: Page, tmp_path: Path) -> None:
+    """Beside many wide columns a cell of knobs would be a letter wide, and a bar beside a long name nothing."""
+    knobs = {"resolution": 1024, "normal_offset": 0.5, "distribution": "schlick_remapped", "slope_bias": 1.25}
+    results = make_results(32)
+    effects = tuple(dataclasses.replace(effect, knobs=knobs) for effect in results.effects)
+    names = "cascaded_shadow_map · south-western ceiling lamp · map", "shadow_map · light"
+    passes = tuple(PassTime(name, "shadow_map", 3.0, 1.0) for name in names)
+    results = dataclasses.replace(results, effects=effects, passes=passes)
+    size = {"height": 1000, "deviceScaleFactor": 1, "mobile": False}
+    page.send("Emulation.setDeviceMetricsOverride", width=1280, **size)
+    try:
+        open_report(page, write_report(tmp_path, results, make_pairs(32)))
+        lines = page.evaluate(
+            "[...document.querySelectorAll('.knobs code')]"
+            ".map(code => code.offsetHeight / parseFloat(getComputedStyle(code).lineHeight))"
+        )
+        assert len(lines) == len(knobs) * len(effects)
+        assert max(lines) < 1.5
+        bars = page.evaluate("[...document.querySelectorAll('.passes svg')].map(bar => bar.clientWidth)")
+        assert min(bars) > 60
     finally:
         page.send("Emulation.setDeviceMetricsOverride", width=1500, **size)
 

@@ -8,7 +8,7 @@ import pytest
 from rich.console import Console
 
 from lightmeter.metrics.measurement import Measurement
-from lightmeter.reports.results import Frame, Results
+from lightmeter.reports.results import Frame, Results, Together
 from lightmeter.reports.results_json import ResultsError, from_json, to_json, write_json
 from lightmeter.reports.terminal import comparison_table
 
@@ -30,6 +30,20 @@ def test_bytes_per_pixel_are_there_for_who_stores_something() -> None:
     console = Console(width=160, record=True, file=io.StringIO())
     console.print(comparison_table(results))
     assert console.export_text().count("bytes per pixel") == 1
+
+
+def test_pairs_that_make_up_for_one_another_come_back_as_they_were() -> None:
+    results = make_results()
+    assert results.attribution is not None
+    pair = Together(("shadow_map", "constant_ambient"), {"mse": Measurement(0.3, 0.2, 0.4)})
+    attribution = dataclasses.replace(results.attribution, together=(pair,))
+    results = dataclasses.replace(results, attribution=attribution)
+    document = to_json(results)
+    assert from_json(document) == results
+    one = json.loads(document)
+    one["attribution"]["together"][0]["names"].pop()
+    with pytest.raises(ResultsError, match=r"together\[0\].names: expected a list of 2"):
+        from_json(json.dumps(one))
 
 
 def test_candidates_come_back_as_they_were() -> None:
