@@ -1,0 +1,95 @@
+"""Techniques for dielectric solids beside the truth: error of `transmission`, how much light they show, milliseconds.
+
+    python benchmarks/refraction.py [--size 128] [--spp 1024] [--output TABLE.md] [--picture FILE]
+
+Writes the table and the picture of docs/transmission.md.
+"""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+from rich.console import Console
+
+from lightmeter.groundtruth.store import Store
+from lightmeter.metrics.comparison import Comparison
+from lightmeter.metrics.mse import rmse
+from lightmeter.options import Budget
+from lightmeter.progress import silent
+from lightmeter.realtime.device import Device
+from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.display import display_transform
+from lightmeter.realtime.graph import Choice, compile_plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.scenes.load import load
+from lightmeter.scenes.model import Scene
+from lightmeter.sides import FramePoints, effect_sides
+from lightmeter.truth import Truth
+
+TECHNIQUES: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("refraction_one_interface", {}),
+    ("refraction_two_interfaces", {}),
+    *(("refraction_bounces", {"bounces": bounces}) for bounces in (1, 2, 4, 8, 16)),
+    ("refraction_bounces", {"bounces": 8, "size": 64}),
+    ("refraction_bounces", {"bounces": 8, "size": 1024}),
+    ("refraction_bounces", {"bounces": 8, "iterations": 2}),
+)
+
+
+def alone(scene: Scene) -> Scene:
+    """The solids of a scene, and what surrounds it."""
+    solids = tuple(shape for shape in scene.shapes if shape.material.is_glass)
+    return replace(scene, name=f"{scene.name}, alone", shapes=solids)
+
+
+def rows_of(scene: Scene, size: int, spp: int, pictures: list[np.ndarray]) -> list[str]:
+    """A row for each technique; the pictures of some go to `pictures`, the truth's last."""
+    truth = Truth(scene, (size, size), Budget(spp), 0, store=Store())
+    device, rows, shown = Device(), [], {}
+    for name, knobs in TECHNIQUES:
+        choice = Choice(use=(name,), without=("supersampling",), settings={name: knobs})
+        renderer = Renderer(device, compile_plan(scene, effects(), choice), (size, size))
+        side = effect_sides(renderer, truth, silent, FramePoints.of(renderer, truth), only=(name,))[name]
+        error = rmse(Comparison(np.stack(side.tested), np.stack(side.truth)))
+        exact = np.mean(side.truth, axis=0, dtype=np.float64)
+        light = np.mean(side.tested, dtype=np.float64) / exact.mean()
+        took = renderer.measure(frames=7).of(name)
+        half = (error.high - error.low) / 2 if error.high is not None and error.low is not None else 0.0
+        settings = ", ".join(f"{knob} {value}" for knob, value in knobs.items())
+        label = f"`{name}`" + (f", {settings}" if settings else "")
+        rows.append(f"| {scene.name} | {label} | {error.value:.3f} ± {half:.3f} | {light:.0%} | {took.median:.1f} |")
+        shown[name, knobs.get("bounces")] = renderer.render().radiance
+        display = display_transform(renderer.plan)
+        seen = renderer.capture(terms=False).points
+        shown["truth", None] = np.where(seen.hit[..., None], exact, seen.emission)
+    wanted = (TECHNIQUES[0], TECHNIQUES[1], TECHNIQUES[2], TECHNIQUES[5])
+    for key in (*((name, knobs.get("bounces")) for name, knobs in wanted), ("truth", None)):
+        pictures.append(np.rint(255 * display(np.asarray(shown[key], np.float32))).astype(np.uint8))
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--size", type=int, default=128, metavar="N", help="side of the pictures (%(default)s)")
+    parser.add_argument("--spp", type=int, default=1024, metavar="N", help="samples of the truth (%(default)s)")
+    parser.add_argument("--output", type=Path, metavar="FILE", help="write the table here")
+    parser.add_argument("--picture", type=Path, metavar="FILE", help="write the picture here")
+    args = parser.parse_args()
+    lines = ["| scene | technique | RMSE, W/(sr·m²) | light shown | ms |", "| --- | --- | --- | --- | --- |"]
+    pictures: list[list[np.ndarray]] = []
+    for scene in (load("gem"), alone(load("glass-ball")), load("glass-ball")):
+        pictures.append([])
+        lines += rows_of(scene, args.size, args.spp, pictures[-1])
+    Console().print("\n".join(lines), markup=False, soft_wrap=True)
+    if args.output:
+        args.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if args.picture:
+        sheet = np.concatenate([np.concatenate(row, axis=1) for row in pictures], axis=0)
+        Image.fromarray(sheet).save(args.picture, quality=92)
+
+
+if __name__ == "__main__":
+    main()
