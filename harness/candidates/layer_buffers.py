@@ -80,6 +80,7 @@ _BY_KIND: Mapping[str, Callable[[np.ndarray, int | None, ExactBatch], tuple[np.n
     "environment": lambda v, _n, e: (v, _at_centre(e.environment)),
     "ambient_visibility": lambda v, _n, e: (v * _at_centre(e.environment), _at_centre(e.environment_shadowed)),
     "indirect": lambda v, _n, e: (v, _at_centre(e.indirect)),
+    "transmission": lambda v, _n, e: (v, _at_centre(e.transmission)),
 }
 
 

@@ -35,6 +35,7 @@ LAYERS: dict[str, Layer] = {
         "environment_visibility", False, 3, "what is left of the environment's reflected radiance with occlusion, 0…1"
     ),
     "indirect": Layer("indirect", False, 3, "radiance scattered by other surfaces, one bounce or more"),
+    "transmission": Layer("transmission", False, 3, "radiance mirrored by and refracted through dielectric solids"),
     "emission": Layer("", False, 3, "radiance that the surface itself emits, or the background's"),
     "normal": Layer("", False, 3, "unit shading normal in world space"),
     "depth": Layer("", False, 1, "metres along the camera's forward axis"),

@@ -28,7 +28,7 @@ def layer_shares(
     frame stays in every set and ends up in the residual.
     """
     names = judged.handed.layers
-    if not any(name.startswith(("direct.", "environment", "indirect")) for name in names):
+    if not any(name.startswith(("direct.", "environment", "indirect", "transmission")) for name in names):
         return None, ""
     if judged.mask is not None or judged.handed.display is not None:
         return None, "No shares: they need a scene-linear frame without masked pixels."
