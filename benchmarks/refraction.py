@@ -5,14 +5,13 @@
 Writes the table and the picture of docs/transmission.md.
 """
 
-import argparse
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from judged import parser, publish
 from PIL import Image
-from rich.console import Console
 
 from lightmeter.groundtruth.store import Store
 from lightmeter.metrics.comparison import Comparison
@@ -63,8 +62,9 @@ def rows_of(scene: Scene, size: int, spp: int, pictures: list[np.ndarray]) -> li
         rows.append(f"| {scene.name} | {label} | {error.value:.3f} ± {half:.3f} | {light:.0%} | {took.median:.1f} |")
         shown[name, knobs.get("bounces")] = renderer.render().radiance
         display = display_transform(renderer.plan)
-        seen = renderer.capture(terms=False).points
-        shown["truth", None] = np.where(seen.hit[..., None], exact, seen.emission)
+        ior = renderer.capture(terms=False).points.ior
+        assert ior is not None
+        shown["truth", None] = np.where(ior[..., None] > 0, exact, shown[name, knobs.get("bounces")])
     wanted = (TECHNIQUES[0], TECHNIQUES[1], TECHNIQUES[2], TECHNIQUES[5])
     for key in (*((name, knobs.get("bounces")) for name, knobs in wanted), ("truth", None)):
         pictures.append(np.rint(255 * display(np.asarray(shown[key], np.float32))).astype(np.uint8))
@@ -72,20 +72,15 @@ def rows_of(scene: Scene, size: int, spp: int, pictures: list[np.ndarray]) -> li
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--size", type=int, default=128, metavar="N", help="side of the pictures (%(default)s)")
-    parser.add_argument("--spp", type=int, default=1024, metavar="N", help="samples of the truth (%(default)s)")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the table here")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="write the picture here")
-    args = parser.parse_args()
+    options = parser(__doc__ or "", 128)
+    options.add_argument("--picture", type=Path, metavar="FILE", help="write the picture here")
+    args = options.parse_args()
     lines = ["| scene | technique | RMSE, W/(sr·m²) | light shown | ms |", "| --- | --- | --- | --- | --- |"]
     pictures: list[list[np.ndarray]] = []
     for scene in (load("gem"), alone(load("glass-ball")), load("glass-ball")):
         pictures.append([])
         lines += rows_of(scene, args.size, args.spp, pictures[-1])
-    Console().print("\n".join(lines), markup=False, soft_wrap=True)
-    if args.output:
-        args.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    publish(["\n".join(lines)], args.output)
     if args.picture:
         sheet = np.concatenate([np.concatenate(row, axis=1) for row in pictures], axis=0)
         Image.fromarray(sheet).save(args.picture, quality=92)
