@@ -3,6 +3,7 @@
 import numpy as np
 
 from lightmeter.groundtruth import rays
+from lightmeter.groundtruth.to_numpy import rows
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.vertex import Vertices
 from lightmeter.groundtruth.world import World
@@ -20,4 +21,4 @@ def mirrored_hits(world: World, points: SurfacePoints) -> np.ndarray:
     met = hit.is_valid()
     side = dr.select(dr.dot(hit.n, direction) > 0, -hit.n, hit.n)
     found = (mi.Vector3f(dr.select(met, part, 0)) for part in (hit.p, side))
-    return np.stack([vertices.image(part.numpy()) for part in found])
+    return np.stack([vertices.image(rows(part)) for part in found])
