@@ -13,6 +13,7 @@ from lightmeter.groundtruth import rays
 from lightmeter.groundtruth.heuristic import power_heuristic
 from lightmeter.groundtruth.incident import incident
 from lightmeter.groundtruth.scattering import MULTISCATTER
+from lightmeter.groundtruth.to_numpy import rows
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.vertex import MultiscatterVertex, Vertex, Vertices
 from lightmeter.groundtruth.wavefront import Lanes, average
@@ -73,23 +74,25 @@ def _from_punctual(
     Args:
         further: (3, count) unshadowed radiance to be added; None: nothing.
     """
-    vertex = vertices.at(dr.arange(mi.UInt32, vertices.count))
+    lane = dr.arange(mi.UInt32, vertices.count)
+    vertex = vertices.at(lane)
     position = mi.Vector3d(vertex.position)
     towards, irradiance, end = incident(light, position)
     normal, view = dr.normalize(mi.Vector3d(vertex.normal)), dr.normalize(mi.Vector3d(vertex.view))
     unshadowed = mi.Color3f(optics.evaluate(vertex.material_in_double, normal, view, towards) * irradiance)
     if further is not None:
-        unshadowed += mi.Color3f(further)
+        # Row by row: of three arrays a kernel would say how far apart they lie, and be compiled anew for another count.
+        unshadowed += dr.gather(mi.Color3f, mi.Float(np.ascontiguousarray(further.T, np.float32).ravel()), lane)
     if not shadowed:
         dr.eval(unshadowed)
-        return unshadowed.numpy()
+        return rows(unshadowed)
     direction = mi.Vector3f(towards)
     it = vertex.interaction
     ray = it.spawn_ray(direction) if end is None else it.spawn_ray_to(mi.Point3f(end + 0 * position))
     lit = rays.clear(world, ray, vertex.carries(direction) & (dr.max(unshadowed) > 0))
     transported = dr.select(lit, unshadowed, 0)
     dr.eval(transported, unshadowed)
-    return np.concatenate([transported.numpy(), unshadowed.numpy()])
+    return np.concatenate([rows(transported), rows(unshadowed)])
 
 
 def _further_bounces(light: PunctualLight, vertices: Vertices, spp: int, seed: Sequence[int]) -> np.ndarray:

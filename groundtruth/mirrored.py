@@ -3,6 +3,7 @@
 import numpy as np
 
 from lightmeter.groundtruth import rays
+from lightmeter.groundtruth.to_numpy import rows
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.vertex import Vertices
 from lightmeter.groundtruth.world import World
@@ -19,6 +20,6 @@ def mirrored_hits(world: World, points: SurfacePoints) -> np.ndarray:
     hit = rays.first_hit(world, vertex.interaction.spawn_ray(direction), vertex.carries(direction))
     met = hit.is_valid()
     side = dr.select(dr.dot(hit.n, direction) > 0, -hit.n, hit.n)
-    dr.eval(hit.p, side, met)
-    places = np.where(met.numpy(), world.frame.leave(hit.p.numpy().T).T, 0)
-    return np.stack([vertices.image(part) for part in (places, np.where(met.numpy(), side.numpy(), 0))])
+    places, normals = (rows(mi.Vector3f(dr.select(met, part, 0))) for part in (hit.p, side))
+    places = np.where(met.numpy(), world.frame.leave(places.T).T, 0)
+    return np.stack([vertices.image(part) for part in (places, normals)])

@@ -37,8 +37,9 @@ class Vertices:
         self._check(points)
         if self.count == 0:
             return  # nothing is ever evaluated, and Dr.Jit computes with no empty arrays
-        shape = mi.UInt32(self._rows(points.shape, np.uint32))
-        triangle = mi.UInt32(self._rows(points.triangle, np.uint32))
+        # Gathered, and both from one array, lest kernels depend on how NumPy's memory is aligned (oracles/material.py).
+        faces = mi.UInt32(self._rows(np.stack([points.shape, points.triangle], axis=-1), np.uint32))
+        shape, triangle = dr.gather(mi.Vector2u, faces, dr.arange(mi.UInt32, self.count))
         self.position = mi.Float(world.frame.enter(self._rows(points.position).reshape(-1, 3)).ravel())
         self.normal = mi.Float(self._rows(points.normal))
         self.view = mi.Float(self._rows(points.view))

@@ -66,6 +66,23 @@ def test_help_loads_no_renderer_and_no_heavy_library():
     assert "compare" in done.stdout
 
 
+@pytest.mark.parametrize(
+    ("source", "unneeded"),
+    [
+        ("from lightmeter.cli import main; main(['scenes'])", ("pydantic", "mitsuba", "moderngl")),
+        (
+            "import lightmeter.comparison",
+            ("lightmeter.scenes.export", "lightmeter.metrics.registration", "scipy.ndimage"),
+        ),
+    ],
+)
+def test_what_a_command_does_not_need_it_does_not_load(source, unneeded):
+    """Listing the scenes builds none, and what candidates need waits for one."""
+    source += f"; import sys; print('loaded', [name for name in {unneeded} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-P", "-c", source], capture_output=True, text=True, check=False)
+    assert done.stdout.splitlines()[-1:] == ["loaded []"], done.stdout + done.stderr
+
+
 def test_nothing_in_the_tree_hides_the_package(tmp_path):
     """The working directory's folders have bare names; the package is found by its own, wherever one stands."""
     source = "import lightmeter.scenes, lightmeter.metrics; print(lightmeter.scenes.__name__)"

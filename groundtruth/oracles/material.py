@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from lightmeter.groundtruth.surface import SurfacePoint
+from lightmeter.groundtruth.to_numpy import rows
 from lightmeter.groundtruth.variant import dr, mi
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes.layers import COAT, layer_channels
@@ -39,11 +40,11 @@ def evaluate(world: World, points: SurfacePoints, *, spp: int = 1, seed: int = 0
 
 
 def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.ndarray]:
-    # Gathered, since a kernel that loads NumPy's memory directly depends on how that memory happens to be aligned.
+    # Gathered, since a kernel that loads NumPy's memory directly depends on how that memory happens to be aligned; and
+    # both from one array, as Dr.Jit makes a load of a gather that takes one number after another.
     lane = dr.arange(mi.UInt32, len(where))
-    shape, triangle = (
-        dr.gather(mi.UInt32, mi.UInt32(a[where].astype(np.uint32)), lane) for a in (flat.shape, flat.triangle)
-    )
+    faces = np.stack([flat.shape, flat.triangle], axis=-1)[where]
+    shape, triangle = dr.gather(mi.Vector2u, mi.UInt32(faces.astype(np.uint32).ravel()), lane)
     position, view = (
         dr.gather(mi.Vector3f, mi.Float(a.astype(np.float32).ravel()), lane)
         for a in (world.frame.enter(flat.position[where]), flat.view[where])
@@ -73,7 +74,8 @@ def _read(world: World, flat: SurfacePoints, where: np.ndarray) -> dict[str, np.
     if material.sheen is not None:
         found |= {"sheen_color": material.sheen.color, "sheen_roughness": material.sheen.roughness}
     dr.eval(list(found.values()))
-    return {name: np.broadcast_to(value.numpy().T, (len(where), *_extent(name))) for name, value in found.items()}
+    arrays = {name: rows(value).T if _extent(name) else value.numpy() for name, value in found.items()}
+    return {name: np.broadcast_to(array, (len(where), *_extent(name))) for name, array in arrays.items()}
 
 
 def _inside(world: World, shape: np.ndarray) -> dict[str, np.ndarray]:

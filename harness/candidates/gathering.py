@@ -12,7 +12,6 @@ from lightmeter.candidates.failure import CandidateError
 from lightmeter.candidates.fitting import check_fit
 from lightmeter.candidates.handed import Display, Handed, take
 from lightmeter.candidates.obtaining import Job, check, obtain
-from lightmeter.exporting import export
 from lightmeter.failures import UsageError
 from lightmeter.progress import Report, silent
 from lightmeter.realtime.discovery import effects
@@ -95,6 +94,8 @@ def _jobs(
     """A job for each candidate; the scene is exported where one of them renders it."""
     environment = None
     if any(candidate.source != "file" for candidate in candidates):
+        from lightmeter.exporting import export
+
         environment = export(scene, size, folder / "scene").environment
 
     def make(candidate: Candidate) -> Job:

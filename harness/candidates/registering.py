@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from lightmeter.candidates.handed import Handed
-from lightmeter.metrics.registration import correct, find_faults, outside
 from lightmeter.reports.results import Finding
 
 
@@ -31,6 +30,9 @@ def register(handed: Handed, reference: np.ndarray, background: np.ndarray) -> R
         reference: (K, H, W, 3) batches of the truth.
         background: (H, W) bool, where pixels' centres see no surface.
     """
+    # Not before there is a candidate: SciPy's filters take a quarter of a second to import.
+    from lightmeter.metrics.registration import correct, find_faults, outside
+
     truth = np.asarray(reference)
     if handed.display is not None:
         # What clipping took from the image is taken from the truth.

@@ -15,7 +15,7 @@ def run(args: argparse.Namespace) -> int:
     """List the built-in scenes with what each isolates."""
     from lightmeter.scenes import library
 
-    found = [{"name": name, "summary": library.load(name).summary} for name in library.names()]
+    found = [{"name": name, "summary": library.summary(name)} for name in library.names()]
     if args.json:
         print(json.dumps(found, indent=2, ensure_ascii=False))
         return 0

@@ -1,8 +1,11 @@
 """A shape's place and a light's direction, from numbers in degrees."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from lightmeter.scenes.toml.entries import Placed
+if TYPE_CHECKING:  # the library's Python scenes want `unit` alone, and the entries' models take a fifth of a second
+    from lightmeter.scenes.toml.entries import Placed
 
 
 def about(axis: tuple[float, float, float], degrees: float) -> np.ndarray:
@@ -13,7 +16,7 @@ def about(axis: tuple[float, float, float], degrees: float) -> np.ndarray:
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)
 
 
-def placement(entry: Placed) -> np.ndarray:
+def placement(entry: "Placed") -> np.ndarray:
     """(4, 4) local-to-world matrix: translation · rotation · scale, or the matrix that was given."""
     if entry.matrix is not None:
         return np.array(entry.matrix, dtype=np.float64)

@@ -10,6 +10,7 @@ from lightmeter.scenes.model import Material, Scene, Shape
 from lightmeter.scenes.optics import material as optics
 
 from .. import white_metal
+from .aligned import aligned
 from .noise import assert_mean, sidak
 from .small_scenes import floor, looking
 
@@ -25,9 +26,16 @@ def world_of(material: Material) -> World:
     return World.of(Scene("floor", (Shape("floor", floor(), material),), camera))
 
 
+def vector(direction):
+    """In Dr.Jit, and no literal: one kernel serves all directions."""
+    found = mi.Vector3f(*map(float, direction))
+    dr.make_opaque(found)
+    return found
+
+
 def seen_from(world: World, direction, count: int):
     """Intersections at the floor's middle, seen from a direction; the BSDF there."""
-    towards = mi.Vector3f(*map(float, direction))
+    towards = vector(direction)
     ray = mi.Ray3f(mi.Point3f(0.1, 0, 0.05) + 2 * towards + dr.zeros(mi.Point3f, count), -towards)
     si = world.mitsuba.ray_intersect(ray)
     assert bool(dr.all(si.is_valid()))
@@ -50,7 +58,7 @@ def test_samples_follow_the_density(metallic, roughness, degrees):
     world = world_of(Material(base_color=(0.8, 0.5, 0.2), metallic=metallic, roughness=roughness))
     alpha, view = max(roughness**2, 1e-3), tilted(degrees)
     rng = np.random.default_rng([13, int(10 * metallic), int(100 * roughness), degrees])
-    u = rng.random((3, count)).astype(np.float32)
+    u = aligned(rng.random((3, count)))
     si, bsdf = seen_from(world, view, count)
     drawn, _ = bsdf.sample(mi.BSDFContext(), si, mi.Float(u[0]), mi.Point2f(u[1], u[2]))
     kept = drawn.pdf.numpy() > 0
@@ -88,7 +96,7 @@ def cell_probabilities(world, view, alpha, rings, sectors, steps=24) -> np.ndarr
     v_dot_h = view @ half
     light = 2 * v_dot_h * half - view[:, None]
     si, bsdf = seen_from(world, view, len(t))
-    wo = si.to_local(mi.Vector3f(light.astype(np.float32)))
+    wo = si.to_local(mi.Vector3f(*aligned(light)))
     density = bsdf.pdf(mi.BSDFContext(), si, wo).numpy().astype(float)
     # dl = 4 v·h dh; dh = sin θ dθ dφ; dθ = cos²θ·α ds for s = tan θ/α; ds = (1 + s)·reach·dt.
     per_t = sine * cosine**2 * alpha * (1 + slope) * reach(alpha)
@@ -102,7 +110,7 @@ def test_sampling_weights_are_value_over_density_and_values_are_the_optics(metal
     material = Material(base_color=(0.8, 0.5, 0.2), metallic=metallic, roughness=roughness)
     world = world_of(material)
     rng = np.random.default_rng(3)
-    u = rng.random((3, 4096)).astype(np.float32)
+    u = aligned(rng.random((3, 4096)))
     view = tilted(40)
     si, bsdf = seen_from(world, view, 4096)
     drawn, weight = bsdf.sample(mi.BSDFContext(), si, mi.Float(u[0]), mi.Point2f(u[1], u[2]))
@@ -133,9 +141,9 @@ def test_it_is_reciprocal():
     for _ in range(8):
         a, b = tilted(rng.uniform(0, 85), rng.uniform(0, 6.28)), tilted(rng.uniform(0, 85), rng.uniform(0, 6.28))
         si, bsdf = seen_from(world, a, 1)
-        there = bsdf.eval(context, si, si.to_local(mi.Vector3f(*map(float, b)))).numpy().ravel() / b[1]
+        there = bsdf.eval(context, si, si.to_local(vector(b))).numpy().ravel() / b[1]
         si, bsdf = seen_from(world, b, 1)
-        back = bsdf.eval(context, si, si.to_local(mi.Vector3f(*map(float, a)))).numpy().ravel() / a[1]
+        back = bsdf.eval(context, si, si.to_local(vector(a))).numpy().ravel() / a[1]
         np.testing.assert_allclose(there, back, rtol=1e-4)
 
 
@@ -146,7 +154,7 @@ def test_the_white_metals_albedo_is_the_published_one(alpha, mu, albedo):
     rng = np.random.default_rng(7)
     batches = []
     for _ in range(8):
-        u = rng.random((3, 200_000)).astype(np.float32)
+        u = aligned(rng.random((3, 200_000)))
         si, bsdf = seen_from(world, tilted(np.degrees(np.arccos(mu))), u.shape[1])
         _, weight = bsdf.sample(mi.BSDFContext(), si, mi.Float(u[0]), mi.Point2f(u[1], u[2]))
         batches.append(weight.numpy()[0].mean())
@@ -165,7 +173,7 @@ def test_white_metals_and_white_lambert_make_no_light(roughness, other):
     rng = np.random.default_rng(11)
     quantile = stats.norm.ppf(1 - sidak(8 * 6))
     for degrees in (0, 30, 60, 75, 85, 89):
-        u = rng.random((3, 100_000)).astype(np.float32)
+        u = aligned(rng.random((3, 100_000)))
         si, bsdf = seen_from(world, tilted(degrees), u.shape[1])
         _, weight = bsdf.sample(mi.BSDFContext(), si, mi.Float(u[0]), mi.Point2f(u[1], u[2]))
         weights = weight.numpy()[0].astype(float)

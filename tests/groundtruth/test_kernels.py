@@ -3,10 +3,12 @@
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 
 from lightmeter.groundtruth.oracles import direct, environment_visibility, indirect, visibility
 from lightmeter.groundtruth.primary import surface_points
 from lightmeter.groundtruth.reference import render_batch
+from lightmeter.groundtruth.scattering import MULTISCATTER, SINGLE
 from lightmeter.groundtruth.variant import dr
 from lightmeter.groundtruth.world import World
 from lightmeter.scenes import shapes
@@ -72,3 +74,16 @@ def test_another_scene_of_the_same_kind_compiles_nothing_and_materials_share_one
     del first
     other = World.of(grid(0.7))
     assert compiled(lambda: render_batch(other, (20, 10), 4, 0)) == (1, 0)
+
+
+@pytest.mark.parametrize("scattering", [SINGLE, MULTISCATTER])
+def test_other_points_compile_nothing(scattering):
+    """However many they are, and wherever NumPy has put them: at the address of a whole vector, or beside it."""
+    world = World.of(grid(0.5), scattering)
+
+    def new(width: int) -> int:
+        points = surface_points(world, (width, 10), np.full(2, 0.5))
+        return compiled(lambda: direct.evaluate(world, points, 0, spp=2))[1]
+
+    new(20)
+    assert [new(width) for width in range(21, 29)] == [0] * 8

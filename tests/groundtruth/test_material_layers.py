@@ -16,6 +16,7 @@ from lightmeter.scenes.model import Environment, Image, Material, PointLight, Sc
 from lightmeter.scenes.optics import anisotropy, clear_coat, lights, sheen
 from lightmeter.scenes.optics import material as optics
 
+from .aligned import aligned
 from .noise import assert_same_mean
 from .small_scenes import floor, looking
 from .test_bsdf import seen_from, tilted
@@ -88,7 +89,7 @@ def test_the_bsdf_is_the_optics(material, degrees):
     count = 4096
     world, view = World.of(scene_of(material)), tilted(degrees)
     rng = np.random.default_rng(3)
-    u = rng.random((3, count)).astype(np.float32)
+    u = aligned(rng.random((3, count)))
     si, bsdf = seen_from(world, view, count)
     drawn, weight = bsdf.sample(mi.BSDFContext(), si, mi.Float(u[0]), mi.Point2f(u[1], u[2]))
     value, density = bsdf.eval_pdf(mi.BSDFContext(), si, drawn.wo)
@@ -115,7 +116,7 @@ def test_a_double_sided_coat_is_the_same_from_below():
         wo = rng.normal(size=(3, 64))
         wo[1] = np.abs(wo[1])
         wo = sign * wo / np.linalg.norm(wo, axis=0)
-        found.append(bsdf.eval(mi.BSDFContext(), si, si.to_local(mi.Vector3f(wo.astype(np.float32)))).numpy())
+        found.append(bsdf.eval(mi.BSDFContext(), si, si.to_local(mi.Vector3f(*aligned(wo)))).numpy())
     assert found[0].max() > 0
     np.testing.assert_allclose(found[1], found[0], rtol=1e-4, atol=1e-6)
 

@@ -22,6 +22,7 @@ from lightmeter.scenes.optics import microfacet
 from lightmeter.scenes.optics.microsurface import walk
 
 from .. import white_metal
+from .aligned import aligned
 from .noise import assert_mean, assert_same_mean, sidak
 from .small_scenes import floor, looking, placed
 
@@ -44,7 +45,7 @@ def leaning(cosine: float) -> np.ndarray:
 
 def vector(direction):
     """(3,) or (3, N), as arrays that no kernel has as constants."""
-    found = mi.Vector3f(*(mi.Float(np.atleast_1d(x).astype(np.float32)) for x in direction))
+    found = mi.Vector3f(*(mi.Float(aligned(x)) for x in direction))
     dr.make_opaque(found)
     return found
 
@@ -52,7 +53,7 @@ def vector(direction):
 def draws(seed: int) -> tuple[mi.Point2f, microsurface.Noise]:
     """Uniform pairs, and noise that differs from lane to lane."""
     rng = np.random.default_rng(seed)
-    u = rng.random((4, COUNT)).astype(np.float32)
+    u = aligned(rng.random((4, COUNT)))
     return mi.Point2f(u[0], u[1]), microsurface.Noise(mi.Float(u[2]), mi.Float(u[3]))
 
 
@@ -104,7 +105,7 @@ def test_sampling_and_evaluation_are_of_one_lobe(metallic):
     drawn, evaluated = [], []
     for batch in range(BATCHES):
         u, noise = draws(batch)
-        chosen = mi.Float(np.random.default_rng(500 + batch).random(COUNT).astype(np.float32))
+        chosen = mi.Float(aligned(np.random.default_rng(500 + batch).random(COUNT)))
         direction, weight, _ = microsurface.sample(point, UP, view, (chosen, u.x, u.y), noise)
         drawn.append(in_cells(direction.numpy().astype(float), weight.numpy().astype(float)))
         light = cosine_directions(2000 + batch)

@@ -1,12 +1,17 @@
 """`lightmeter compare` as a user runs it, on the simplest scene."""
 
+import io
 import json
 import shutil
 import subprocess
 import sys
+from contextlib import redirect_stdout
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+from lightmeter.cli import main
 
 SIZE = ("--size", "32x24", "--spp", "8")
 
@@ -25,17 +30,20 @@ KEYS = {
 """Keys that other tools read (design, section 6); more may come, none may go."""
 
 
-@pytest.fixture
-def compared(run, tmp_path):
-    """The plane, compared; the second one who asks is served by the store."""
-    found = run("compare", "plane", *SIZE, "-o", "out")
-    assert found.code == 0, found.err
-    return found
+@pytest.fixture(scope="module")
+def compared(shared_store, tmp_path_factory) -> tuple[str, Path]:
+    """The plane, compared: what was printed, and the folder that was written."""
+    folder, printed = tmp_path_factory.mktemp("compared"), io.StringIO()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(printed):
+        patch.chdir(folder)
+        patch.setenv("LIGHTMETER_STORE", str(shared_store))
+        assert main(["compare", "plane", *SIZE, "-o", "out"]) == 0
+    return printed.getvalue(), folder / "out"
 
 
-def test_the_report_and_all_that_belongs_to_it_is_written(compared, tmp_path):
-    out = tmp_path / "out"
-    assert f"report: {out.relative_to(tmp_path) / 'report.html'}" in compared.out
+def test_the_report_and_all_that_belongs_to_it_is_written(compared):
+    printed, out = compared
+    assert f"report: {Path('out') / 'report.html'}" in printed
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "<html" in page
     heatmaps = {path.name for path in (out / "heatmaps").glob("*.png")}
@@ -43,10 +51,10 @@ def test_the_report_and_all_that_belongs_to_it_is_written(compared, tmp_path):
     assert {path.name for path in out.iterdir()} == {"report.html", "results.json", "heatmaps", "layers.exr"}
 
 
-def test_the_layers_hold_what_the_report_shows(compared, tmp_path):
+def test_the_layers_hold_what_the_report_shows(compared):
     from lightmeter.scenes.image_files.reading import read_image
 
-    layers = tmp_path / "out" / "layers.exr"
+    layers = compared[1] / "layers.exr"
     tested = read_image(layers, layer="frame.tested")
     truth = read_image(layers, layer="frame.truth")
     assert tested.shape == (24, 32, 3)
@@ -54,8 +62,8 @@ def test_the_layers_hold_what_the_report_shows(compared, tmp_path):
     assert np.array_equal(read_image(layers), tested)
 
 
-def test_results_have_the_keys_that_must_stay(compared, tmp_path):
-    document = json.loads((tmp_path / "out" / "results.json").read_text())
+def test_results_have_the_keys_that_must_stay(compared):
+    document = json.loads((compared[1] / "results.json").read_text())
     assert {key: type(document[key]) for key in KEYS} == KEYS
     assert document["schema"] == 1
     assert document["size"] == [32, 24]
@@ -120,12 +128,13 @@ def test_no_other_oracle_is_even_imported(shared_store, tmp_path):
     assert done.stderr == ""
 
 
-def test_a_saved_reference_gives_the_same_numbers(run, tmp_path, compared):
+def test_a_saved_reference_gives_the_same_numbers(run, compared):
     assert run("reference", "plane", *SIZE, "-o", "truth").code == 0
     found = run("compare", "plane", *SIZE, "-o", "out", "--reference", "truth", "--json")
     assert found.code == 0
-    again = run("compare", "plane", *SIZE, "-o", "out", "--json")
-    assert found.json["frame"]["metrics"] == again.json["frame"]["metrics"]
+    traced = json.loads((compared[1] / "results.json").read_text())
+    assert found.json["frame"]["metrics"] == traced["frame"]["metrics"]
+    assert traced["reference"]["cached"] is False
     assert found.json["reference"]["cached"] is True
 
 

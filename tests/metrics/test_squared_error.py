@@ -97,11 +97,11 @@ def independent(k):
 def one_direction(k):
     # A gain that fluctuates from batch to batch: all of the noise in one eigenvector, the worst for a degenerate
     # U-statistic. In units of the image's norm.
-    return lambda seed: TRUTH * (1 + 0.5 * RNG(seed).normal(size=(k, 1, 1, 1)))
+    return lambda seed: (TRUTH * (1 + 0.5 * RNG(seed).normal(size=(k, 1, 1, 1)))).astype(np.float32)
 
 
 def skewed(k):
-    return lambda seed: TRUTH * RNG(seed).exponential(size=(k, *TRUTH.shape))
+    return lambda seed: (TRUTH * RNG(seed).exponential(size=(k, *TRUTH.shape))).astype(np.float32)
 
 
 # Errors as multiples of the truth: none, below the noise of the mean, around it, above one batch's noise.

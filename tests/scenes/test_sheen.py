@@ -11,13 +11,11 @@ from lightmeter.scenes.optics.sheen import Sheen
 
 from .test_optics import UP, hemisphere, leaning, stack
 
-TABLE = sheen.albedo_table().ravel()
-
 
 def felt(color: float, roughness: float, base: float = 0.0) -> MaterialPoint:
     """A grey sheen over grey Lambert."""
     below = MaterialPoint(np.full((3, 1), base), np.zeros(1), np.full(1, 0.6), np.zeros(1))
-    return replace(below, sheen=Sheen(np.full((3, 1), color), np.full(1, roughness), TABLE))
+    return replace(below, sheen=Sheen(np.full((3, 1), color), np.full(1, roughness), sheen.albedo_table().ravel()))
 
 
 def albedo(point: MaterialPoint, cosine: float) -> float:

@@ -23,40 +23,44 @@ from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
 from lightmeter.truth import Truth
 
 SIZE = (96, 96)
+SMALL = (64, 64)
+"""Of the whole library's frames: each pixel has its noise and its approximations, and half as many pixels do."""
 
 
 @cache
-def truth(name: str) -> tuple[Truth, np.ndarray]:
+def truth(name: str, size: tuple[int, int] = SIZE) -> tuple[Truth, np.ndarray]:
     """A scene's truth and its 8 batches of 8 samples a pixel."""
-    made = Truth(load(name), SIZE, Budget(64), 0)
+    made = Truth(load(name), size, Budget(64), 0)
     return made, np.stack(made.reference.batches)
 
 
 @cache
-def traced(name: str) -> np.ndarray:
+def traced(name: str, size: tuple[int, int] = SIZE) -> np.ndarray:
     """What another path tracer would hand in: 64 samples a pixel, independent of the truth's."""
-    return truth(name)[0].path_traced(64, 1)
+    return truth(name, size)[0].path_traced(64, 1)
 
 
-def renderer(scene: Scene, choice: Choice | None = None) -> Renderer:
-    return Renderer(Device(), compile_plan(scene, effects(), choice), SIZE)
+def renderer(scene: Scene, choice: Choice | None = None, size: tuple[int, int] = SIZE) -> Renderer:
+    return Renderer(Device(), compile_plan(scene, effects(), choice), size)
 
 
 @cache
-def background(name: str) -> np.ndarray:
-    return renderer(load(name)).capture(terms=False).points.shape < 0
+def background(name: str, size: tuple[int, int] = SIZE) -> np.ndarray:
+    return renderer(load(name), size=size).capture(terms=False).points.shape < 0
 
 
-def found(name: str, image: np.ndarray, alpha: np.ndarray | None = None) -> dict[str, dict[str, float]]:
+def found(
+    name: str, image: np.ndarray, alpha: np.ndarray | None = None, size: tuple[int, int] = SIZE
+) -> dict[str, dict[str, float]]:
     """Fault to its size."""
-    faults = find_faults(image, truth(name)[1], alpha=alpha, background=background(name))
+    faults = find_faults(image, truth(name, size)[1], alpha=alpha, background=background(name, size))
     return {fault.name: dict(fault.size) for fault in faults}
 
 
 @pytest.mark.parametrize("name", library.names())
 def test_right_frames_raise_none(name):
-    assert found(name, traced(name)) == {}
-    assert found(name, renderer(load(name)).render().radiance) == {}
+    assert found(name, traced(name, SMALL), size=SMALL) == {}
+    assert found(name, renderer(load(name), size=SMALL).render().radiance, size=SMALL) == {}
 
 
 @pytest.mark.parametrize("name", ["cornell-box", "grid-sun", "posts", "torus"])
