@@ -35,6 +35,13 @@ def truth_of(spp: int) -> Truth:
     return Truth(true_surface(CONTROL), SIZE, Budget(spp, least=8))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def released():
+    """No later test's kernels hold the materials and lights of these worlds."""
+    yield
+    truth_of.cache_clear()
+
+
 def both_sides(choice: Choice, spp: int = 16) -> tuple[Renderer, Truth]:
     """The renderer and the truth of the control scene."""
     plan = compile_plan(CONTROL, effects(), choice)

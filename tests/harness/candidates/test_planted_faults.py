@@ -27,17 +27,20 @@ SMALL = (64, 64)
 """Of the whole library's frames: each pixel has its noise and its approximations, and half as many pixels do."""
 
 
+# Images are kept, and no truth: every kernel holds the materials and lights of all worlds that are alive, and with
+# those of the whole library it takes three times as long to compile.
+
+
 @cache
-def truth(name: str, size: tuple[int, int] = SIZE) -> tuple[Truth, np.ndarray]:
-    """A scene's truth and its 8 batches of 8 samples a pixel."""
-    made = Truth(load(name), size, Budget(64), 0)
-    return made, np.stack(made.reference.batches)
+def truth(name: str, size: tuple[int, int] = SIZE) -> np.ndarray:
+    """8 batches of 8 samples a pixel."""
+    return np.stack(Truth(load(name), size, Budget(64), 0).reference.batches)
 
 
 @cache
 def traced(name: str, size: tuple[int, int] = SIZE) -> np.ndarray:
     """What another path tracer would hand in: 64 samples a pixel, independent of the truth's."""
-    return truth(name, size)[0].path_traced(64, 1)
+    return Truth(load(name), size, Budget(64), 0).path_traced(64, 1)
 
 
 def renderer(scene: Scene, choice: Choice | None = None, size: tuple[int, int] = SIZE) -> Renderer:
@@ -53,7 +56,7 @@ def found(
     name: str, image: np.ndarray, alpha: np.ndarray | None = None, size: tuple[int, int] = SIZE
 ) -> dict[str, dict[str, float]]:
     """Fault to its size."""
-    faults = find_faults(image, truth(name, size)[1], alpha=alpha, background=background(name, size))
+    faults = find_faults(image, truth(name, size), alpha=alpha, background=background(name, size))
     return {fault.name: dict(fault.size) for fault in faults}
 
 
@@ -172,7 +175,7 @@ def test_a_background_that_is_missing():
 def test_correction_undoes_what_was_found(name):
     """A shift of whole pixels and an exposure: what remains is the resampling's blur and the exposure's own error."""
     image = np.roll(traced(name) * np.float32(2), (2, -3), axis=(0, 1))
-    faults = find_faults(image, truth(name)[1], background=background(name))
+    faults = find_faults(image, truth(name), background=background(name))
     assert {fault.name for fault in faults} == {"shift", "exposure"}
     inner = (slice(8, -8), slice(8, -8))
     mended = correct(image, faults)[inner]
