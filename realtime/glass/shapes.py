@@ -4,8 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from lightmeter.scenes.model import Scene
-
 from ..geometry import Batch
 from ..reflections.mirrors import box_of
 from ..shaders import source
@@ -15,17 +13,6 @@ from ..uniforms import set_uniforms
 
 MARGIN = 1e-4
 """Of the box's size: float32 positions on its faces lie inside."""
-
-
-def largest_solids(scene: Scene, count: int) -> tuple[int, ...]:
-    """The shapes that bound dielectric solids, the largest boxes first."""
-    solids = [i for i, shape in enumerate(scene.shapes) if shape.material.is_glass and len(shape.mesh.triangles)]
-
-    def diagonal(index: int) -> float:
-        low, high = box_of(scene.shapes[index])
-        return float(np.linalg.norm(high - low))
-
-    return tuple(sorted(solids, key=diagonal, reverse=True)[:count])
 
 
 class SolidShape:

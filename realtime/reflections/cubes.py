@@ -39,6 +39,11 @@ class LitCube:
         return self._lit.texture
 
     @property
+    def places(self) -> Any:
+        """The texture of where what is seen lies; w = 0 where there is no surface."""
+        return self._lit.position
+
+    @property
     def uniforms(self) -> dict[str, Any]:
         """What `cube_maps.glsl` is told of one cube."""
         return {"cube_views": self._views, "cube_centres": self._centre[None]}

@@ -57,7 +57,8 @@ NOT_TWINNED = {
     "hemisphere.glsl": {"occlusion"},  # reads the screen by shown.glsl: test_ambient_visibility.py
     "horizons.glsl": {"horizon_towards", "occlusion"},  # likewise
     "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
-    "seen_around.glsl": {"seen_around"},  # looks up: test_refraction.py
+    "cube_maps.glsl": {"place_in_cube"},  # uniforms handed on: test_reflections.py
+    "seen_around.glsl": {"seen_around", "seen_behind"},  # looks up: test_refraction.py
     "refraction_bounces.glsl": {"from_within"},  # follows a ray through textures: test_refraction.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py
 }

@@ -10,11 +10,11 @@ from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.scenes import shapes
 from lightmeter.scenes.glass import glass
 from lightmeter.scenes.load import load
-from lightmeter.scenes.model import Environment, Image, Shape
+from lightmeter.scenes.model import Environment, Image, Material, Shape
 from lightmeter.scenes.optics import dielectric
 from lightmeter.scenes.optics import environment as optics
 
-from .small_scenes import camera, renderer, scene_of
+from .small_scenes import camera, moved, renderer, scene_of
 
 TECHNIQUES = ("refraction_one_interface", "refraction_two_interfaces", "refraction_bounces")
 SLOPE = np.array([0.3, 0.5, -0.2])
@@ -111,6 +111,22 @@ def test_clear_glass_is_invisible_in_a_furnace(device, name):
     ball = Shape("ball", shapes.sphere(0.9, segments=48, rings=24), glass("clear", 1.7))
     made, _ = shown(device, ball, Environment((1.0, 1.0, 1.0)), name)
     np.testing.assert_allclose(made, 1.0, atol=4 * 2.0**-23)
+
+
+@pytest.mark.parametrize("name", TECHNIQUES)
+def test_surfaces_around_stand_before_the_environment(device, name):
+    """A black wall behind a slab: straight through it is seen, in the mirror the white sky before it is."""
+    slab = Shape("slab", shapes.box(1.0, 1.0, 0.4), glass("clear", 1.5))
+    wall = Shape("wall", shapes.box(40.0, 40.0, 0.1), Material("black", (0.0, 0.0, 0.0), specular=0.0), moved(z=-2.0))
+    scene = replace(scene_of(slab, wall, view=camera()), environment=Environment((1.0, 1.0, 1.0)))
+    r = 0.04
+    mirrored = {"scene": r + (r * (1 - r) ** 2 if name == "refraction_bounces" else 0), "environment": 1.0}
+    for around, expected in mirrored.items():
+        choice = Choice(use=(name,), settings={name: {"around": around}})
+        made = renderer(device, scene, (24, 24), choice).capture()
+        front = (made.points.ior > 0) & (made.points.normal[..., 2] > 0.9)
+        # Two of four bounces leave by the front and two by the back; what is kept inside is 0.04³ at most.
+        np.testing.assert_allclose(made.frame["transmission"][front], expected, atol=2e-4)
 
 
 def test_what_the_last_bounce_mirrors_is_lost(device):

@@ -1,13 +1,13 @@
 """Rays followed inside a solid by its tangent planes."""
 
 from ...effect import Effect, Knob
-from ...glass.around import around_uniforms, nothing_around
+from ...glass.around import AROUND_KNOBS, around_uniforms, nothing_around
 
 EFFECT = Effect(
     name="refraction_bounces",
     terms=("transmission",),
     summary="The refracted ray is followed inside from wall to wall, a cube map of the solid's tangent planes telling "
-    "where; at each what leaves shows the environment, and the rest is mirrored on.",
+    "where; at each what leaves shows what is around, and the rest is mirrored on.",
     citation="Guy & Soler 2004, Graphics Gems Revisited: Rendering of Gemstones; Szirmay-Kalos "
     "et al. 2005, Approximate Ray-Tracing on the GPU with Distance Impostors",
     channels=("position", "normal", "absorption", "ior"),
@@ -26,6 +26,7 @@ EFFECT = Effect(
             high=2048,
             sweep=(32, 64, 128, 256, 512),
         ),
+        *AROUND_KNOBS,
         Knob("solids", 4, "Cube maps at most: the largest solids have one each, others show nothing.", low=1, high=8),
     ),
 )

@@ -1,6 +1,6 @@
 #include "dielectric.glsl"
-#include "seen_around.glsl"
 #include "solid_planes.glsl"
+#include "seen_around.glsl"
 
 // Everything that comes out of a solid towards where `inside` came from; all positions are from the solid's middle.
 vec3 from_within(int solid, vec3 start, vec3 inside, float ior, vec3 absorption) {

@@ -1,4 +1,4 @@
-"""The environment's map."""
+"""What is around."""
 
 from ...glass.around import SurroundedPasses
 

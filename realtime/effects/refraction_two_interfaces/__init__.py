@@ -1,7 +1,7 @@
 """Refraction at a solid's front and at its back."""
 
 from ...effect import Effect
-from ...glass.around import around_uniforms, nothing_around
+from ...glass.around import AROUND_KNOBS, around_uniforms, nothing_around
 
 EFFECT = Effect(
     name="refraction_two_interfaces",
@@ -13,4 +13,5 @@ EFFECT = Effect(
     channels=("position", "normal", "absorption", "ior"),
     unneeded=nothing_around,
     uniforms=around_uniforms,
+    knobs=AROUND_KNOBS,
 )

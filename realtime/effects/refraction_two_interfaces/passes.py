@@ -23,7 +23,7 @@ class Passes(SurroundedPasses):
 
     def uniforms(self, _light: int | None) -> dict[str, Any]:
         """Where a point lies among the backs."""
-        return {"back_view": self._backs.view_projection}
+        return super().uniforms(_light) | {"back_view": self._backs.view_projection}
 
     def textures(self, _light: int | None) -> dict[str, Any]:
         """The map and the backs."""
