@@ -7,6 +7,7 @@ import numpy as np
 from lightmeter.realtime.display import POINTWISE, twin_of
 from lightmeter.realtime.graph import DISPLAY_TERMS, Plan, Step
 from lightmeter.realtime.pictures.codes import written
+from lightmeter.scenes.model import Camera
 
 
 def display_steps(plan: Plan) -> list[Step]:
@@ -62,15 +63,15 @@ class Chained:
             return written(twin_of(effect.name, term)(image, knobs), knobs)
         if not exact:
             return twin_of(effect.name, term)(image, knobs)
-        if term == "glare":
-            from lightmeter.groundtruth.oracles import glare
+        return _exactly(term, image, camera, effect.part)
 
-            # An effect for a part of it adds what diffraction has not: a lens's reflections.
-            return image if effect.part else glare.evaluate(image, camera)
-        if term == "exposure":
-            from lightmeter.groundtruth.oracles import exposure
 
-            return exposure.evaluate(image, camera)
-        from lightmeter.groundtruth.oracles import find
+def _exactly(term: str, image: np.ndarray, camera: Camera, part: str) -> np.ndarray:
+    """A display term by its oracle. A part of glare has no truth: diffraction has no reflections in a lens."""
+    from lightmeter.groundtruth.oracles import encode, exposure, glare, tone
 
-        return find(term).evaluate(image.astype(np.float32))
+    if term == "glare":
+        return image if part else glare.evaluate(image, camera)
+    if term == "exposure":
+        return exposure.evaluate(image, camera)
+    return {"tone": tone, "encode": encode}[term].evaluate(image.astype(np.float32))

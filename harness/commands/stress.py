@@ -149,7 +149,8 @@ def _scenes(args: argparse.Namespace) -> int:
 
 def _choice_words(args: argparse.Namespace) -> str:
     """The choice of effects as it was written, to be written again; "" for none."""
-    named = [f" --{name} {quote(value)}" for name in ("only", "without", "use") if (value := getattr(args, name))]
+    lists = {name: getattr(args, name) for name in ("only", "without", "use")}
+    named = [f" --{name} {quote(','.join(value))}" for name, value in lists.items() if value]
     return "".join([*named, *(f" --set {quote(text)}" for text in args.set)])
 
 
