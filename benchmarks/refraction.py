@@ -32,10 +32,13 @@ TECHNIQUES: tuple[tuple[str, dict[str, Any]], ...] = (
     ("refraction_one_interface", {}),
     ("refraction_two_interfaces", {}),
     *(("refraction_bounces", {"bounces": bounces}) for bounces in (1, 2, 4, 8, 16)),
+    ("refraction_bounces", {"bounces": 4, "around": "environment"}),
     ("refraction_bounces", {"bounces": 8, "size": 64}),
     ("refraction_bounces", {"bounces": 8, "size": 1024}),
     ("refraction_bounces", {"bounces": 8, "iterations": 2}),
 )
+PICTURED = (0, 1, 2, 5)
+"""Of the techniques, those whose pictures are shown."""
 
 
 def alone(scene: Scene) -> Scene:
@@ -47,7 +50,7 @@ def alone(scene: Scene) -> Scene:
 def rows_of(scene: Scene, size: int, spp: int, pictures: list[np.ndarray]) -> list[str]:
     """A row for each technique; the pictures of some go to `pictures`, the truth's last."""
     truth = Truth(scene, (size, size), Budget(spp), 0, store=Store())
-    device, rows, shown = Device(), [], {}
+    device, rows, shown = Device(), [], []
     for name, knobs in TECHNIQUES:
         choice = Choice(use=(name,), without=("supersampling",), settings={name: knobs})
         renderer = Renderer(device, compile_plan(scene, effects(), choice), (size, size))
@@ -60,14 +63,13 @@ def rows_of(scene: Scene, size: int, spp: int, pictures: list[np.ndarray]) -> li
         settings = ", ".join(f"{knob} {value}" for knob, value in knobs.items())
         label = f"`{name}`" + (f", {settings}" if settings else "")
         rows.append(f"| {scene.name} | {label} | {error.value:.3f} ± {half:.3f} | {light:.0%} | {took.median:.1f} |")
-        shown[name, knobs.get("bounces")] = renderer.render().radiance
+        shown.append(renderer.render().radiance)
         display = display_transform(renderer.plan)
         ior = renderer.capture(terms=False).points.ior
         assert ior is not None
-        shown["truth", None] = np.where(ior[..., None] > 0, exact, shown[name, knobs.get("bounces")])
-    wanted = (TECHNIQUES[0], TECHNIQUES[1], TECHNIQUES[2], TECHNIQUES[5])
-    for key in (*((name, knobs.get("bounces")) for name, knobs in wanted), ("truth", None)):
-        pictures.append(np.rint(255 * display(np.asarray(shown[key], np.float32))).astype(np.uint8))
+        truly = np.where(ior[..., None] > 0, exact, shown[-1])
+    for image in (*(shown[place] for place in PICTURED), truly):
+        pictures.append(np.rint(255 * display(np.asarray(image, np.float32))).astype(np.uint8))
     return rows
 
 
