@@ -161,7 +161,7 @@ class Sweeping:
         terms = renderer.plan.terms_of(name)
         if terms[0] in DISPLAY_TERMS:
             return display_sides(renderer.plan, list(self._truth.reference.batches))[name]
-        if terms == ("coverage",):
+        if terms == ("coverage",) and renderer.plan.effects[name][0].stage == "samples":
             return coverage_sides(renderer, self._truth, silent)
         return effect_sides(renderer, self._truth, silent, only=(name,))[name]
 
@@ -172,7 +172,7 @@ class Sweeping:
             effect=name,
             terms=self._plan.terms_of(name),
             own_time="its passes" if passes else "the whole frame",
-            comparable=not set(declaration.terms) & set(DISPLAY_TERMS),
+            comparable=declaration.stage != "display" and not set(declaration.terms) & set(DISPLAY_TERMS),
             settings=tuple(self._setting(name, item, passes) for item in listed),
         )
 
@@ -225,7 +225,7 @@ class Sweeping:
 
 def has_passes(plan: Plan, name: str) -> bool:
     """Whether an effect has passes that can be timed; coverage and texture filtering are in everyone's."""
-    return any(step.effect == name for step in plan.steps)
+    return any(step.effect == name for step in plan.steps) or plan.effects[name][0].stage == "radiance"
 
 
 def plan_visits(scene: Scene, choice: Choice, name: str | None, words: Sequence[str]) -> dict[str, list[Visit]]:
