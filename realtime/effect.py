@@ -132,6 +132,7 @@ class Effect:
         stores: for `surface` and `material`: formats of the G-buffer's channels, see `layout.py`, from the knobs.
         stage: for `coverage`: which of `STAGES` it works at. What works on code values filters what the others sampled.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
+        masks: for `coverage`: whether its passes mask pixels that further samples need not be lit in.
         folder: where its GLSL lies; found by discovery.
     """
 
@@ -155,6 +156,7 @@ class Effect:
     stores: Callable[[Knobs], dict[str, str]] = lambda _knobs: {}
     stage: str = "samples"
     offsets: Callable[[Knobs], np.ndarray] | None = None
+    masks: bool = False
     folder: Path = field(default=Path(), compare=False)
 
     def __post_init__(self):

@@ -54,7 +54,7 @@ class Step:
 
     @property
     def of_display(self) -> bool:
-        """Whether it works on the finished scene-linear image, or on what is made of it; so do filters of code values."""
+        """Whether it works on the finished scene-linear image, or what is made of it; so do filters of code values."""
         return self.writes[0] in (*DISPLAY_TERMS, "coverage")
 
 

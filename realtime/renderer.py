@@ -68,13 +68,18 @@ class Renderer:
         filtering = plan.effect_of("material")
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
-        self._radiance_buffer = device.framebuffer([self._radiance])
+        masks = plan.sampler is not None and plan.effects[plan.sampler][0].masks
+        # What reads the lit frame reads it in other pixels too, and none may be left out.
+        mask = device.gl.depth_renderbuffer(size) if masks and not plan.reads_scattered else None
+        self._radiance_buffer = device.framebuffer([self._radiance], mask)
+        self._unmasked = None if mask is None else device.framebuffer([], mask)
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance, stored=plan.stored())
         self.baking = Baking(device)
         self._scattered = (
             FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
         )
-        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size, self.baking, plan, self._scattered)
+        given = device, plan.scene, self._geometry, gbuffer, size, self.baking, plan, self._scattered
+        self._stage = Stage(*given, mask=mask)
         self._passes = self._make_passes(self._stage, separate=False)
         scene_steps = [step for step in plan.steps if not step.of_display]
         self._lighting = Lighting(self._stage, scene_steps, self._radiance_buffer, self._passes)
@@ -110,9 +115,15 @@ class Renderer:
 
     def draw(self) -> None:
         """Draw the frame once; where it has a history, that too."""
+        self._unmask()
         if self._gatherer:
             self._gatherer.clear()
         self._draw_samples(self.offsets)
+
+    def _unmask(self) -> None:
+        """Light every pixel again."""
+        if self._unmasked:
+            self._unmasked.clear(depth=1.0)
 
     def _draw_samples(self, offsets: np.ndarray) -> None:
         """Draw samples of the scene, gather them, and show what they come to."""
@@ -133,9 +144,10 @@ class Renderer:
 
     def _draw_next(self, offsets: np.ndarray) -> None:
         """The next frame: one more sample where there is a history, else all of them anew."""
-        if self._gatherer and not self._is_temporal:
-            self._gatherer.clear()
-        self._draw_samples(offsets)
+        if self._is_temporal:
+            self._draw_samples(offsets)
+        else:
+            self.draw()
 
     def measure(self, frames: int = 20, warm_up: int = 3) -> Times:
         """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""
@@ -144,8 +156,8 @@ class Renderer:
     def record(self, frames: int, warm_up: int) -> Recording:
         """Single times of `frames` frames after `warm_up`: in each round the whole frame, then its passes one by one.
 
-        So a round's times were taken under the same conditions, and their ratio is a paired one. Of a frame with a history
-        it is what the next frame takes.
+        So a round's times were taken under the same conditions, and their ratio is a paired one. Of a frame with a
+        history it is what the next frame takes.
         """
         clock = Clock(self.device)
         offsets = self.offsets[:1] if self._is_temporal else self.offsets
@@ -159,6 +171,7 @@ class Renderer:
         passes: list[tuple[str, str, list[float]]] = [(name, effect, []) for name, effect, _ in actions]
         for _ in range(frames):
             whole.append(clock.measure(lambda: self._draw_next(offsets)))
+            self._unmask()
             for (_, _, times), (_, _, action) in zip(passes, actions, strict=True):
                 times.append(clock.measure(action))
         return Recording(whole, passes, self._coverage if len(offsets) > 1 else "", clock.method, clock.disagreement)

@@ -118,6 +118,16 @@ def test_taa_of_equal_shares_without_a_clamp_is_the_mean_of_its_frames(device):
     assert np.abs(clamped - samples.mean(axis=0)).max() > 0.01
 
 
+@pytest.mark.parametrize("samples", [2, 4, 8])
+def test_msaa_on_the_device_is_its_twin(device, samples):
+    """The mean of `samples` colours, summed one by one."""
+    drawn, twin, all_of_them = drawn_and_gathered(device, "msaa", samples=samples)
+    bound = 2 * samples * np.finfo(np.float32).eps * max(1.0, all_of_them.max())
+    assert np.abs(drawn - twin).max() <= bound
+    edges = np.abs(drawn - all_of_them[0]).max(axis=-1) > bound
+    assert 0.02 < edges.mean() < 0.9
+
+
 def test_a_frame_with_a_history_takes_what_its_next_one_takes(device):
     """One G-buffer, its lighting and one blend, whatever is in the history."""
     times = renderer_of(device, "taa").record(1, 1)

@@ -24,8 +24,8 @@ def _radical_inverse(number: int, base: int) -> float:
 EFFECT = Effect(
     name="taa",
     terms=("coverage",),
-    summary="Frames of a camera that stands still, each sampled at another place in the pixel and blended with the history "
-    "of those before, which is clamped to the colours around the pixel.",
+    summary="Frames of a camera that stands still, each sampled elsewhere in the pixel and blended with the "
+    "history of those before, which is clamped to the colours around the pixel.",
     citation="Karis 2014, High-Quality Temporal Supersampling, SIGGRAPH course",
     knobs=(
         Knob(
@@ -49,7 +49,7 @@ EFFECT = Effect(
         Knob(
             "weigh",
             False,
-            "Whether colours are weighted with 1/(1 + their luma, exposed), so that a highlight counts less.",
+            "Whether colours are weighted with 1/(1 + exposed luma), so that a highlight counts less.",
         ),
     ),
     rank=2,

@@ -1,0 +1,142 @@
+"""What each way to sample and filter a pixel leaves of the box filter's error, and what it costs.
+
+    python benchmarks/antialiasing.py [--size 128] [--spp 256] [--frames 20] [--picture FILE] [--output FILE]
+
+Every other term is exact at the frame's samples, so that the error is the sampling's and the filter's alone.
+"""
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import argparse
+import datetime
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from lightmeter.device import fingerprint
+from lightmeter.display_chain import Chained
+from lightmeter.metrics.flip import ldr_flip
+from lightmeter.options import Budget
+from lightmeter.progress import silent
+from lightmeter.realtime.device import Device
+from lightmeter.realtime.discovery import effects
+from lightmeter.realtime.graph import Choice, compile_plan
+from lightmeter.realtime.renderer import Renderer
+from lightmeter.reports.significant import show_number
+from lightmeter.scenes.load import load
+from lightmeter.sides import effect_sides
+from lightmeter.truth import Truth
+
+SCENES = ("torus", "posts", "grid-sun")
+TECHNIQUES: dict[str, Choice] = {
+    "centre sample": Choice(),
+    "`fxaa`": Choice(use=("fxaa",)),
+    "`msaa`, 2": Choice(use=("msaa",), settings={"msaa": {"samples": 2}}),
+    "`msaa`, 4": Choice(use=("msaa",)),
+    "`msaa`, 8": Choice(use=("msaa",), settings={"msaa": {"samples": 8}}),
+    "`supersampling`, 2 × 2": Choice(settings={"supersampling": {"grid": 2}}),
+    "`supersampling`, 4 × 4": Choice(settings={"supersampling": {"grid": 4}}),
+    "`taa`, 16 frames": Choice(use=("taa",)),
+    "`taa`, no clamp": Choice(use=("taa",), settings={"taa": {"clamp": False}}),
+    "`taa`, no clamp, blend 0": Choice(use=("taa",), settings={"taa": {"clamp": False, "blend": 0.0}}),
+}
+BASE = "centre sample"
+MARK = "<!-- measured -->"
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Of one technique in one scene: radiance's error over its mean, and code values'."""
+
+    nrmse: float | None
+    codes: float
+    flip: float
+    shown: np.ndarray
+
+
+def judge(renderer: Renderer, truth: Truth) -> Found:
+    """The technique's own error, by what `lightmeter compare` calls its sides."""
+    plan = renderer.plan
+    assert plan.sampler is not None
+    linear = effect_sides(renderer, truth, silent, only=(plan.sampler,))[plan.sampler]
+    tested, exact = (np.mean(side, axis=0, dtype=np.float64) for side in (linear.tested, linear.truth))
+    filters = {name for name in plan.effects if plan.filters_display(name)}
+    shown, goal = Chained(plan, tested).whole(()), Chained(plan, exact).whole(filters)
+    error = float(np.sqrt(np.mean((tested - exact) ** 2)) / exact.mean())
+    return Found(
+        None if filters else error,
+        float(np.sqrt(np.mean((shown - goal) ** 2, dtype=np.float64))) * 255,
+        float(ldr_flip(shown, goal).mean()),
+        shown,
+    )
+
+
+def measure(scene: str, size: int, spp: int, frames: int) -> tuple[dict[str, Found], dict[str, float]]:
+    """Errors, and times over the centre sample's, all techniques in turn in every round."""
+    device, truth = Device(), Truth(load(scene), (size, size), Budget(spp))
+    renderers = {
+        name: Renderer(device, compile_plan(truth.scene, effects(), choice), truth.size)
+        for name, choice in TECHNIQUES.items()
+    }
+    found = {name: judge(renderer, truth) for name, renderer in renderers.items()}
+    rounds: dict[str, list[float]] = {name: [] for name in renderers}
+    for number in range(frames + 1):
+        for name, renderer in renderers.items():
+            (milliseconds,) = renderer.record(1, 1 if number == 0 else 0).frame
+            if number:
+                rounds[name].append(milliseconds)
+    ratios = {name: float(np.median(np.array(t) / np.array(rounds[BASE]))) for name, t in rounds.items()}
+    return found, ratios
+
+
+def table(scene: str, found: dict[str, Found], ratios: dict[str, float]) -> list[str]:
+    """A scene's rows."""
+    lines = [f"## `{scene}`", "", "| | nRMSE | RMSE of codes | FLIP | time |", "| --- | ---: | ---: | ---: | ---: |"]
+    for name, one in found.items():
+        linear = "" if one.nrmse is None else f"{100 * one.nrmse:.2f} %"
+        lines.append(
+            f"| {name} | {linear} | {one.codes:.2f} | {show_number(round(one.flip, 5))} | {ratios[name]:.2f} × |"
+        )
+    return [*lines, ""]
+
+
+def enlarged(found: dict[str, Found], place: tuple[int, int], side: int = 32, times: int = 6) -> Image.Image:
+    """A part of some of the pictures beside each other, pixel by pixel."""
+    names = (BASE, "`fxaa`", "`msaa`, 4", "`taa`, 16 frames", "`supersampling`, 4 × 4")
+    row, column = place
+    parts = [found[name].shown[row : row + side, column : column + side] for name in names]
+    codes = np.rint(np.concatenate(parts, axis=1) * 255).astype(np.uint8)
+    return Image.fromarray(codes.repeat(times, axis=0).repeat(times, axis=1))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--size", type=int, default=128)
+    parser.add_argument("--spp", type=int, default=256)
+    parser.add_argument("--frames", type=int, default=20)
+    parser.add_argument("--picture", type=Path)
+    parser.add_argument("--output", type=Path, default=Path("docs/antialiasing.md"))
+    args = parser.parse_args()
+    device = Device()
+    lines = [
+        MARK,
+        f"Written by `python benchmarks/antialiasing.py --size {args.size} --spp {args.spp} --frames {args.frames}` on "
+        f"{datetime.date.today()}.",
+        "",
+    ]
+    for scene in SCENES:
+        found, ratios = measure(scene, args.size, args.spp, args.frames)
+        lines += table(scene, found, ratios)
+        if scene == SCENES[0] and args.picture:
+            enlarged(found, (args.size // 8, args.size // 8)).save(args.picture)
+    lines += [f"{fingerprint(device.renderer, device.version)}.", ""]
+    text = args.output.read_text(encoding="utf-8") if args.output.exists() else "# Anti-aliasing\n\n"
+    args.output.write_text(text.partition(MARK)[0] + "\n".join(lines), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
