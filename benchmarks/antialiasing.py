@@ -19,19 +19,20 @@ from PIL import Image
 
 from lightmeter.device import fingerprint
 from lightmeter.display_chain import Chained
+from lightmeter.metrics.comparison import Comparison
 from lightmeter.metrics.flip import ldr_flip
+from lightmeter.metrics.mse import nrmse
 from lightmeter.options import Budget
 from lightmeter.progress import silent
 from lightmeter.realtime.device import Device
 from lightmeter.realtime.discovery import effects
 from lightmeter.realtime.graph import Choice, compile_plan
 from lightmeter.realtime.renderer import Renderer
-from lightmeter.reports.significant import show_number
 from lightmeter.scenes.load import load
 from lightmeter.sides import effect_sides
 from lightmeter.truth import Truth
 
-SCENES = ("torus", "posts", "grid-sun")
+SCENES = ("control", "torus", "posts")
 TECHNIQUES: dict[str, Choice] = {
     "centre sample": Choice(),
     "`fxaa`": Choice(use=("fxaa",)),
@@ -44,6 +45,7 @@ TECHNIQUES: dict[str, Choice] = {
     "`taa`, no clamp": Choice(use=("taa",), settings={"taa": {"clamp": False}}),
     "`taa`, no clamp, blend 0": Choice(use=("taa",), settings={"taa": {"clamp": False, "blend": 0.0}}),
 }
+PICTURED = "torus"
 BASE = "centre sample"
 MARK = "<!-- measured -->"
 
@@ -66,13 +68,24 @@ def judge(renderer: Renderer, truth: Truth) -> Found:
     tested, exact = (np.mean(side, axis=0, dtype=np.float64) for side in (linear.tested, linear.truth))
     filters = {name for name in plan.effects if plan.filters_display(name)}
     shown, goal = Chained(plan, tested).whole(()), Chained(plan, exact).whole(filters)
-    error = float(np.sqrt(np.mean((tested - exact) ** 2)) / exact.mean())
-    return Found(
-        None if filters else error,
-        float(np.sqrt(np.mean((shown - goal) ** 2, dtype=np.float64))) * 255,
-        float(ldr_flip(shown, goal).mean()),
-        shown,
-    )
+    many = linear.tested[0] if len(linear.tested) == 1 else linear.tested
+    error = nrmse(Comparison(many, linear.truth)).value  # not biased by noise
+    return Found(None if filters else error, *displayed(shown, goal), shown)
+
+
+def displayed(shown: np.ndarray, goal: np.ndarray) -> tuple[float, float]:
+    """RMS error in codes, and FLIP."""
+    difference = np.sqrt(np.mean((shown - goal) ** 2, dtype=np.float64))
+    return float(difference) * 255, float(ldr_flip(shown, goal).mean())
+
+
+def floor(renderer: Renderer, truth: Truth) -> Found:
+    """What two halves of the reference differ by, over √2: as much as its noise adds to what is displayed."""
+    batches = truth.reference.batches
+    halves = [np.mean(batches[start::2], axis=0, dtype=np.float64) for start in (0, 1)]
+    shown = [Chained(renderer.plan, half).whole(()) for half in halves]
+    codes, flip = displayed(*shown)
+    return Found(None, codes / np.sqrt(2), flip / np.sqrt(2), shown[0])
 
 
 def measure(scene: str, size: int, spp: int, frames: int) -> tuple[dict[str, Found], dict[str, float]]:
@@ -83,6 +96,7 @@ def measure(scene: str, size: int, spp: int, frames: int) -> tuple[dict[str, Fou
         for name, choice in TECHNIQUES.items()
     }
     found = {name: judge(renderer, truth) for name, renderer in renderers.items()}
+    found["*noise*"] = floor(renderers[BASE], truth)
     rounds: dict[str, list[float]] = {name: [] for name in renderers}
     for number in range(frames + 1):
         for name, renderer in renderers.items():
@@ -98,9 +112,8 @@ def table(scene: str, found: dict[str, Found], ratios: dict[str, float]) -> list
     lines = [f"## `{scene}`", "", "| | nRMSE | RMSE of codes | FLIP | time |", "| --- | ---: | ---: | ---: | ---: |"]
     for name, one in found.items():
         linear = "" if one.nrmse is None else f"{100 * one.nrmse:.2f} %"
-        lines.append(
-            f"| {name} | {linear} | {one.codes:.2f} | {show_number(round(one.flip, 5))} | {ratios[name]:.2f} × |"
-        )
+        time = f"{ratios[name]:.2f} ×" if name in ratios else ""
+        lines.append(f"| {name} | {linear} | {one.codes:.2f} | {one.flip:.4f} | {time} |")
     return [*lines, ""]
 
 
@@ -131,9 +144,10 @@ def main() -> None:
     for scene in SCENES:
         found, ratios = measure(scene, args.size, args.spp, args.frames)
         lines += table(scene, found, ratios)
-        if scene == SCENES[0] and args.picture:
-            enlarged(found, (args.size // 8, args.size // 8)).save(args.picture)
-    lines += [f"{fingerprint(device.renderer, device.version)}.", ""]
+        if scene == PICTURED and args.picture:
+            enlarged(found, (args.size // 3, 0)).save(args.picture)
+    facts = fingerprint(device.renderer, device.version)
+    lines += [f"{facts['cpu']}, {facts['cores']} cores, {facts['gl_renderer']}.", ""]
     text = args.output.read_text(encoding="utf-8") if args.output.exists() else "# Anti-aliasing\n\n"
     args.output.write_text(text.partition(MARK)[0] + "\n".join(lines), encoding="utf-8")
 

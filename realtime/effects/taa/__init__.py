@@ -6,7 +6,7 @@ from ...effect import Effect, Knob, Knobs
 
 
 def offsets(knobs: Knobs) -> np.ndarray:
-    """(frames, 2) float64 offsets from the pixel's centre, pixels right and down: Halton's sequence in bases 2 and 3."""
+    """(frames, 2) float64 offsets from the pixel's centre, right and down: Halton's sequence in bases 2 and 3."""
     places = [[_radical_inverse(frame, base) for base in (2, 3)] for frame in range(1, int(knobs["frames"]) + 1)]
     return np.array(places) - 0.5
 
