@@ -32,7 +32,7 @@ from lightmeter.scenes.load import load
 from lightmeter.sides import effect_sides
 from lightmeter.truth import Truth
 
-SCENES = ("control", "torus", "posts")
+SCENES = ("control", "torus")
 TECHNIQUES: dict[str, Choice] = {
     "centre sample": Choice(),
     "`fxaa`": Choice(use=("fxaa",)),
