@@ -57,7 +57,6 @@ class Found:
     nrmse: float | None
     codes: float
     flip: float
-    shown: np.ndarray
 
 
 def judge(renderer: Renderer, truth: Truth) -> Found:
@@ -70,7 +69,7 @@ def judge(renderer: Renderer, truth: Truth) -> Found:
     shown, goal = Chained(plan, tested).whole(()), Chained(plan, exact).whole(filters)
     many = linear.tested[0] if len(linear.tested) == 1 else linear.tested
     error = nrmse(Comparison(many, linear.truth)).value  # not biased by noise
-    return Found(None if filters else error, *displayed(shown, goal), shown)
+    return Found(None if filters else error, *displayed(shown, goal))
 
 
 def displayed(shown: np.ndarray, goal: np.ndarray) -> tuple[float, float]:
@@ -85,7 +84,7 @@ def floor(renderer: Renderer, truth: Truth) -> Found:
     halves = [np.mean(batches[start::2], axis=0, dtype=np.float64) for start in (0, 1)]
     shown = [Chained(renderer.plan, half).whole(()) for half in halves]
     codes, flip = displayed(*shown)
-    return Found(None, codes / np.sqrt(2), flip / np.sqrt(2), shown[0])
+    return Found(None, codes / 2**0.5, flip / 2**0.5)
 
 
 def measure(scene: str, size: int, spp: int, frames: int) -> tuple[dict[str, Found], dict[str, float]]:
@@ -117,13 +116,15 @@ def table(scene: str, found: dict[str, Found], ratios: dict[str, float]) -> list
     return [*lines, ""]
 
 
-def enlarged(found: dict[str, Found], place: tuple[int, int], side: int = 32, times: int = 6) -> Image.Image:
-    """A part of some of the pictures beside each other, pixel by pixel."""
+def enlarged(scene: str, size: int, side: int = 32, times: int = 6) -> Image.Image:
+    """A part of some techniques' frames beside each other, pixel by pixel."""
     names = (BASE, "`fxaa`", "`msaa`, 4", "`taa`, 16 frames", "`supersampling`, 4 × 4")
-    row, column = place
-    parts = [found[name].shown[row : row + side, column : column + side] for name in names]
-    codes = np.rint(np.concatenate(parts, axis=1) * 255).astype(np.uint8)
-    return Image.fromarray(codes.repeat(times, axis=0).repeat(times, axis=1))
+    parts = []
+    for name in names:
+        frame = Renderer(Device(), compile_plan(load(scene), effects(), TECHNIQUES[name]), (size, size)).render()
+        assert frame.display is not None
+        parts.append(frame.display[size // 3 : size // 3 + side, :side])
+    return Image.fromarray(np.concatenate(parts, axis=1).repeat(times, axis=0).repeat(times, axis=1))
 
 
 def main() -> None:
@@ -135,6 +136,8 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("docs/antialiasing.md"))
     args = parser.parse_args()
     device = Device()
+    if args.picture:
+        enlarged(PICTURED, args.size).save(args.picture)
     lines = [
         MARK,
         f"Written by `python benchmarks/antialiasing.py --size {args.size} --spp {args.spp} --frames {args.frames}` on "
@@ -144,8 +147,6 @@ def main() -> None:
     for scene in SCENES:
         found, ratios = measure(scene, args.size, args.spp, args.frames)
         lines += table(scene, found, ratios)
-        if scene == PICTURED and args.picture:
-            enlarged(found, (args.size // 3, 0)).save(args.picture)
     facts = fingerprint(device.renderer, device.version)
     lines += [f"{facts['cpu']}, {facts['cores']} cores, {facts['gl_renderer']}.", ""]
     text = args.output.read_text(encoding="utf-8") if args.output.exists() else "# Anti-aliasing\n\n"

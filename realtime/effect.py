@@ -13,8 +13,12 @@ from lightmeter.scenes.terms import TERMS
 
 from .layout import bytes_per_pixel
 
-STAGES = ("samples", "radiance", "display")
-"""Where an effect for `coverage` works: on the G-buffer's samples, on scene-linear frames, on code values."""
+STAGES = {
+    "samples": "the G-buffer's samples",
+    "radiance": "scene-linear frames, one after another",
+    "display": "the code values of the encoded picture",
+}
+"""Where in the frame an effect for `coverage` works."""
 
 KnobValue = float | int | str | bool
 Knobs = Mapping[str, KnobValue]

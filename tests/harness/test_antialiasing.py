@@ -64,3 +64,14 @@ def test_a_sweep_judges_msaa_as_a_comparison_does(truth):
     renderer, found = sides(truth, "msaa", of="msaa")
     swept = coverage_sides(renderer, truth, silent)
     np.testing.assert_allclose(swept.tested[0], found.tested[0], rtol=1e-6, atol=1e-7)
+
+
+def test_a_limit_on_what_is_not_linear_is_refused(run, tmp_path):
+    """MSAA's error has an interval; TAA's and FXAA's are told at the mean of all batches."""
+    limit = '[[limit]]\nscene = "plane"\nmetric = "rmse"\nmax = 1.0\nuse = ["{0}"]\nof = "{0}"\n'
+    for name, code in (("msaa", 0), ("taa", 2), ("fxaa", 2)):
+        (tmp_path / "lightmeter.toml").write_text('[defaults]\nsize = "16x16"\nspp = 16\n' + limit.format(name))
+        found = run("gate")
+        assert found.code == code, found
+        if code:
+            assert f"{name} does not filter linearly" in found.err
