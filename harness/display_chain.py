@@ -5,14 +5,14 @@ from collections.abc import Collection
 import numpy as np
 
 from lightmeter.realtime.display import POINTWISE, twin_of
-from lightmeter.realtime.graph import DISPLAY_TERMS, Plan, Step
+from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.pictures.codes import written
 from lightmeter.scenes.model import Camera
 
 
 def display_steps(plan: Plan) -> list[Step]:
     """The steps that follow the scene-linear image, in order."""
-    return [step for step in plan.steps if step.writes[0] in DISPLAY_TERMS]
+    return [step for step in plan.steps if step.of_display]
 
 
 class Chained:
@@ -61,6 +61,8 @@ class Chained:
             return image * camera.exposure_scale(twin_of(effect.name, term)(image, knobs, camera.metering))
         if not exact and term == "encode":
             return written(twin_of(effect.name, term)(image, knobs), knobs)
+        if not exact and term == "coverage":
+            return written(twin_of(effect.name, term)(image, knobs), {"dither": "none"})
         if not exact:
             return twin_of(effect.name, term)(image, knobs)
         return _exactly(term, image, camera, effect.part)
@@ -70,6 +72,8 @@ def _exactly(term: str, image: np.ndarray, camera: Camera, part: str) -> np.ndar
     """A display term by its oracle. A part of glare has no truth: diffraction has no reflections in a lens."""
     from lightmeter.groundtruth.oracles import encode, exposure, glare, tone
 
+    if term == "coverage":
+        return image  # an image without aliasing needs no filter
     if term == "glare":
         return image if part else glare.evaluate(image, camera)
     if term == "exposure":

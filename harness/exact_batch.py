@@ -34,10 +34,14 @@ class ExactBatch:
         images = (self.emission, *self.direct.values(), *self.shadowed.values(), *rest)
         return sum(image.nbytes for image in images if image is not None)
 
-    def composition(self) -> np.ndarray:
-        """(H, W, 3) float32: the image with every term exact."""
+    def samples(self) -> np.ndarray:
+        """(n, H, W, 3) float64: every point's radiance with every term exact."""
         total = self.emission.astype(np.float64)
         for value in (*self.shadowed.values(), self.environment_shadowed, self.indirect, self.transmission):
             if value is not None:
                 total += value
-        return mean_samples(total).astype(np.float32)
+        return total
+
+    def composition(self) -> np.ndarray:
+        """(H, W, 3) float32: the image with every term exact."""
+        return mean_samples(self.samples()).astype(np.float32)

@@ -193,5 +193,10 @@ def _check_effect(limit: Limit, name: str, key: str, case: Case) -> None:
     if name not in plan.effects:
         why, there = plan.why_absent(name), ", ".join([FRAME, *plan.effects])
         raise UsageError(f"{limit.place}.{key}: {name} takes no part in {case.name}: {why}; it has: {there}")
-    if limit.is_time and name != plan.effect_of("coverage") and not any(step.effect == name for step in plan.steps):
+    if limit.is_time and name != plan.sampler and not any(step.effect == name for step in plan.steps):
         raise UsageError(f"{limit.place}.{key}: {name} draws no pass of its own, so that it has no time")
+    if not limit.is_time and plan.effects[name][0].stage != "samples":
+        raise UsageError(
+            f"{limit.place}.{key}: {name} does not filter linearly, so that its error is told at the mean of all "
+            f"batches and has no interval to decide by; `lightmeter compare {case.name}` tells it"
+        )

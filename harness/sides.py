@@ -8,7 +8,8 @@ import numpy as np
 from lightmeter.display_chain import Chained, display_steps
 from lightmeter.exact_batch import ExactBatch
 from lightmeter.progress import Report
-from lightmeter.realtime.graph import DISPLAY_TERMS, Plan, Step
+from lightmeter.realtime.gathering import gathered
+from lightmeter.realtime.graph import Plan, Step
 from lightmeter.realtime.renderer import Capture, Renderer
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
@@ -130,14 +131,14 @@ def effect_sides(
     plan, at = renderer.plan, at or FramePoints.of(renderer, truth)
     wanted = set(plan.effects if only is None else only)
     captures, spp = at.captures, at.spp
-    drawn = dict.fromkeys(step.effect for step in plan.steps if step.writes[0] not in DISPLAY_TERMS)
+    drawn = dict.fromkeys(step.effect for step in plan.steps if not step.of_display)
     shading = [name for name in drawn if name in wanted and name not in at.variants.everyone]
     sums = {name: _Sums() for name in shading}
     everyone = at.variants.everyone
     varying = [name for name in plan.effects if name in everyone & wanted]
     coverage = [name for name in plan.effects_of("coverage") if name in wanted]
     sums |= {name: _Sums() for name in (*varying, *coverage)}
-    composed = bool(varying or coverage)
+    composed, mean = bool(varying or coverage), np.zeros(1)
     terms = tuple(TERMS) if composed else {term for name in shading for term in plan.terms_of(name)}
     for batch in range(truth.batches):
         report("oracles at the frame's points", batch, truth.batches)
@@ -148,16 +149,35 @@ def effect_sides(
             sums[name].truth.append(mean_samples(exact))
         if not composed:
             continue
-        exact = at.batch(everyone, batch, spp).composition()
+        made = at.batch(everyone, batch, spp)
+        exact = made.composition()
         for name in varying:
             sums[name].tested.append(at.without(name, batch, spp))
             sums[name].truth.append(exact)
+        samples = made.samples()
+        mean = mean + samples / truth.batches
         for name in coverage:
-            sums[name].tested.append(exact)
+            sums[name].tested.append(gathered(plan, samples, at.points))
     report("oracles at the frame's points", truth.batches, truth.batches)
     for name in coverage:
         sums[name].truth = truth.reference.batches
-    return {name: Sides(s.tested, s.truth) for name, s in sums.items()}
+    found = {name: Sides(s.tested, s.truth) for name, s in sums.items()}
+    for name in coverage:
+        if plan.effects[name][0].stage != "samples":  # not linear, and noise looks like edges to it
+            found[name] = Sides([gathered(plan, mean, at.points)], found[name].truth)
+    return found | {name: filtered_sides(plan, name, found[name]) for name in coverage if plan.filters_display(name)}
+
+
+def filtered_sides(plan: Plan, name: str, linear: Sides) -> Sides:
+    """What a filter of code values makes of the frame's samples, and the reference, both through the frame's display.
+
+    Neither the display chain nor the filter is linear: both are of the batches' means.
+
+    Args:
+        linear: the samples' mean with every term exact, and the reference.
+    """
+    tested, truth = (Chained(plan, np.mean(side, axis=0, dtype=np.float64)) for side in (linear.tested, linear.truth))
+    return Sides([tested.whole(())], [truth.whole({name})], "display")
 
 
 def coverage_sides(renderer: Renderer, truth: Truth, report: Report) -> Sides:
@@ -165,7 +185,7 @@ def coverage_sides(renderer: Renderer, truth: Truth, report: Report) -> Sides:
 
     `effect_sides` takes some of them, which is enough for a picture; a sweep compares numbers of samples.
     """
-    variants, offsets = Variants(renderer, truth), renderer.offsets
+    variants, offsets, plan = Variants(renderer, truth), renderer.offsets, renderer.plan
     spp = max(1, truth.reference.spp // len(offsets))
     parts = np.array_split(offsets, -(-len(offsets) // MOST_SAMPLES))
     tested = [np.zeros((*truth.size[::-1], 3)) for _ in range(truth.batches)]
@@ -175,7 +195,7 @@ def coverage_sides(renderer: Renderer, truth: Truth, report: Report) -> Sides:
             report("oracles at the frame's points", number * len(tested) + batch, len(parts) * len(tested))
             # Each part has random numbers of its own.
             exact = seen.truth.batch(seen.points, batch * len(parts) + number, seen.family, spp)
-            image += exact.composition() * (len(part) / len(offsets))
+            image += gathered(plan, exact.samples(), seen.points) * (len(part) / len(offsets))
     report("oracles at the frame's points", 1, 1)
     return Sides([image.astype(np.float32) for image in tested], list(truth.reference.batches))
 
@@ -234,6 +254,8 @@ def display_sides(plan: Plan, reference: list[np.ndarray]) -> dict[str, Sides]:
     steps, camera, found = display_steps(plan), plan.scene.camera, {}
     for place, step in enumerate(steps):
         (term,) = step.writes
+        if term == "coverage":
+            continue  # judged at the frame's samples, see `filtered_sides`: this image is filtered already
         exact = {earlier.effect for earlier in steps[:place] if earlier.writes != ("tone",)}
         tested, truth = chain.after(step, exact), chain.after(step, exact | {step.effect})
         if term == "exposure":

@@ -21,6 +21,7 @@ from lightmeter.metrics.sequential import (
     plan_looks,
     squared_contributions,
 )
+from lightmeter.realtime.gathering import gathered
 from lightmeter.realtime.timing import Recording
 from lightmeter.scenes.terms import TERMS
 from lightmeter.sides import FramePoints, Sides, contribution, display_sides
@@ -209,8 +210,10 @@ class EffectSubject(ImageSubject):
             both = contribution(plan, self.effect, at.captures, exact)
             return np.stack([mean_samples(image) for image in both])
         everyone = at.variants.everyone
-        exact = at.batch(everyone, number, spp, remember=False).composition()
+        made = at.batch(everyone, number, spp, remember=False)
+        exact = made.composition()
         if self.effect in plan.effects_of("coverage"):
+            exact = gathered(plan, made.samples(), at.points)
             return np.stack([exact, self.case.truth.reference_batch(number, self.spp * size)])
         return np.stack([at.without(self.effect, number, spp, remember=False), exact])
 

@@ -52,7 +52,7 @@ def players_of(plan: Plan, term: str, light: int | None = None) -> tuple[str, ..
     Only terms of the G-buffer have more than one: each effect changes another part of it.
     """
     if TERMS[term].scope == "gbuffer":
-        return plan.effects_of(term) or (term,)
+        return tuple(name for name in plan.effects_of(term) if not plan.filters_display(name)) or (term,)
     return (next((s.effect for s in plan.steps if term in s.writes and s.light == light), term),)
 
 

@@ -189,7 +189,7 @@ class Sweeping:
         terms = renderer.plan.terms_of(name)
         if terms[0] in DISPLAY_TERMS:
             return display_sides(renderer.plan, list(self._truth.reference.batches))[name]
-        if terms == ("coverage",):
+        if terms == ("coverage",) and renderer.plan.effects[name][0].stage == "samples":
             return coverage_sides(renderer, self._truth, silent)
         return effect_sides(renderer, self._truth, silent, only=(name,))[name]
 
@@ -217,7 +217,8 @@ class Sweeping:
 
     def _of_light(self, name: str) -> bool:
         """Whether an effect's error is one of radiance, not of code values."""
-        return not set(self._plan.effects[name][0].terms) & set(DISPLAY_TERMS)
+        declaration = self._plan.effects[name][0]
+        return declaration.stage != "display" and not set(declaration.terms) & set(DISPLAY_TERMS)
 
     def _setting(self, item: Measured, idle: Iterable[str], least: Mapping[str, SquaredError]) -> found.Setting:
         varied, times = item.visit.varied, {"effect": self._own_time(item), "frame": summarise(item.recordings).frame}
@@ -289,7 +290,7 @@ class Sweeping:
 
 def has_passes(plan: Plan, name: str) -> bool:
     """Whether an effect has passes that can be timed; coverage and texture filtering are in everyone's."""
-    return any(step.effect == name for step in plan.steps)
+    return any(step.effect == name for step in plan.steps) or plan.effects[name][0].stage == "radiance"
 
 
 def plan_visits(

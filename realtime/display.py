@@ -1,4 +1,4 @@
-"""The display chain on the device: glare, exposure, tone and encode, from the scene-linear image to code values."""
+"""The display chain on the device, from the scene-linear image to code values and filters of these."""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -8,13 +8,13 @@ import numpy as np
 from .device import Device
 from .effect import Effect, Knobs
 from .fullscreen import FullscreenPass
-from .graph import DISPLAY_TERMS, Plan, Step
+from .graph import Plan, Step
 from .lighting import Action
 from .shaders import Source, source
 from .stage import Stage
 
 POINTWISE = ("tone", "encode")
-"""The terms that need nothing of an image but the pixel itself. Glare and exposure have passes of their own."""
+"""The terms that need nothing of an image but the pixel itself. The others have passes of their own."""
 
 
 class DisplayChain:
@@ -22,7 +22,7 @@ class DisplayChain:
 
     def __init__(self, stage: Stage, plan: Plan) -> None:
         self._stage, self._plan = stage, plan
-        self._steps = [step for step in plan.steps if step.writes[0] in DISPLAY_TERMS]
+        self._steps = [step for step in plan.steps if step.of_display]
         self._own = {step: self._made(step) for step in self._steps if step.writes[0] not in POINTWISE}
         pointwise = [step for step in self._steps if step.writes[0] in POINTWISE]
         is_metered = any(step.writes == ("exposure",) for step in self._steps)
@@ -42,7 +42,10 @@ class DisplayChain:
 
     @property
     def encoded(self):
-        """The texture of code values; None where no effect encodes."""
+        """The texture of code values, filtered where an effect filters them; None where no effect encodes."""
+        filtered = [own.image for step, own in self._own.items() if step.writes == ("coverage",)]
+        if filtered:
+            return filtered[-1]
         return next((self._targets[step][1] for step in self._targets if step.writes == ("encode",)), None)
 
     def actions(self, image) -> list[Action]:
@@ -89,7 +92,7 @@ class PointwisePass:
 def display_transform(plan: Plan, frame: np.ndarray | None = None) -> Callable[[np.ndarray], np.ndarray]:
     """The frame's display transform as a function: (…, 3) scene-linear to code values 0…1, not yet quantised.
 
-    Glare is no part of it: what it does to a pixel depends on all others.
+    Glare and filters of code values are no part of it: what they do to a pixel depends on others.
 
     Args:
         frame: (H, W, 3) the frame's radiance. A camera that meters meters this, by its exact rule, for whatever is
@@ -117,5 +120,7 @@ def twin(plan: Plan, term: str) -> Callable[..., np.ndarray]:
 
 
 def twin_of(effect: str, term: str) -> Callable[..., np.ndarray]:
-    """An effect's NumPy twin: tone, encode and glare of (image, knobs), exposure of (image, knobs, metering)."""
+    """An effect's NumPy twin: tone, encode, glare and coverage (of code values) of (image, knobs), exposure of (image,
+    knobs, metering).
+    """
     return getattr(import_module(f"{__package__}.effects.{effect}.twin"), term)

@@ -13,6 +13,13 @@ from lightmeter.scenes.terms import TERMS
 
 from .layout import bytes_per_pixel
 
+STAGES = {
+    "samples": "the G-buffer's samples",
+    "radiance": "scene-linear frames, one after another",
+    "display": "the code values of the encoded picture",
+}
+"""Where in the frame an effect for `coverage` works."""
+
 KnobValue = float | int | str | bool
 Knobs = Mapping[str, KnobValue]
 
@@ -127,7 +134,9 @@ class Effect:
         optional: whether it takes part only where it is asked for.
         surface: for `surface`: the scene as it is drawn, from the scene and the knobs.
         stores: for `surface` and `material`: formats of the G-buffer's channels, see `layout.py`, from the knobs.
+        stage: for `coverage`: which of `STAGES` it works at. What works on code values filters what the others sampled.
         offsets: for `coverage`: (n, 2) sub-pixel offsets in pixels, right and down, from the knobs.
+        masks: for `coverage`: whether its passes mask pixels that further samples need not be lit in.
         folder: where its GLSL lies; found by discovery.
     """
 
@@ -149,13 +158,19 @@ class Effect:
     optional: bool = False
     surface: Callable[[Scene, Knobs], Scene] | None = None
     stores: Callable[[Knobs], dict[str, str]] = lambda _knobs: {}
+    stage: str = "samples"
     offsets: Callable[[Knobs], np.ndarray] | None = None
+    masks: bool = False
     folder: Path = field(default=Path(), compare=False)
 
     def __post_init__(self):
         for term in self.terms:
             if term not in TERMS:
                 raise EffectError(f"effect {self.name!r} names the term {term!r}; {nearest(term, list(TERMS))}")
+        if self.stage not in STAGES:
+            raise EffectError(
+                f"effect {self.name!r} works at the stage {self.stage!r}; {nearest(self.stage, list(STAGES))}"
+            )
 
     def settings(self, given: Mapping[str, Any]) -> dict[str, KnobValue]:
         """Every knob's value: those given, read and checked, and the defaults.

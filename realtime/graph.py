@@ -53,6 +53,11 @@ class Step:
     reads: tuple[str, ...] = ()
     light: int | None = None
 
+    @property
+    def of_display(self) -> bool:
+        """Whether it works on the finished scene-linear image, or what is made of it; so do filters of code values."""
+        return self.writes[0] in (*DISPLAY_TERMS, "coverage")
+
 
 @dataclass(frozen=True, eq=False)
 class Plan:
@@ -101,6 +106,15 @@ class Plan:
     def effects_of(self, term: str) -> tuple[str, ...]:
         """The names of all effects that have a part in a term."""
         return tuple(name for name in self.effects if term in self.terms_of(name))
+
+    @property
+    def sampler(self) -> str | None:
+        """The effect that chooses where in the pixel the scene is sampled; None where none does."""
+        return next((name for name in self.effects_of("coverage") if not self.filters_display(name)), None)
+
+    def filters_display(self, effect: str) -> bool:
+        """Whether an effect filters code values: no player of the scene-linear image."""
+        return effect in self.effects and self.effects[effect][0].stage == "display"
 
     def terms_of(self, effect: str) -> tuple[str, ...]:
         """What an effect gives of this frame: another may be preferred for some of the terms that it declares."""
@@ -165,6 +179,7 @@ def _is_asked(name: str, choice: Choice) -> bool:
 
 def _of_gbuffer(candidates: list[Effect], term: str, choice: Choice) -> set[str]:
     """The effects that vary the G-buffer in a term: the first candidate for each part of it."""
+    candidates = [effect for effect in candidates if effect.stage != "display"]
     parts = dict.fromkeys(effect.part for effect in candidates if term in effect.terms)
     found = (_first(candidates, term, choice, lambda e, part=part: e.part == part) for part in parts)
     return {effect.name for effect in found if effect is not None}
@@ -265,6 +280,9 @@ def _steps(
         for effect in _of_display(candidates, term, choice) if first(term) else ():
             steps.append(Step(effect.name, (term,), (image,)))
             image = term
+    if image == "encode":
+        filters = [effect for effect in candidates if effect.stage == "display"]
+        steps += [Step(effect.name, ("coverage",), (image,)) for effect in _of_display(filters, "coverage", choice)]
     return steps, list(uncovered)
 
 
@@ -280,6 +298,8 @@ def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: lis
     lit = any(effect.lights(scene, light) for light in scene.all_lights)
     if not lit and any(TERMS[term].scope == "light" for term in effect.terms):
         return LeftOut(effect.name, "the scene has no light of the kinds it handles")
+    if effect.stage == "display" and not any(step.writes == ("encode",) for step in steps):
+        return LeftOut(effect.name, "it filters code values, and nothing in this frame encodes")
     others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
     others += [e.name for e in candidates if effect.part and e.part == effect.part][:1]
     if others:

@@ -24,7 +24,9 @@ class Lighting:
         self._stage, self._steps, self._radiance, self.passes = stage, steps, radiance, passes
         drawn = [term for term in VISIBILITIES if any(term in step.writes for step in steps)]
         self._visibility = {term: stage.device.target(stage.size) for term in drawn}
-        self._buffers = {term: stage.device.framebuffer([texture]) for term, texture in self._visibility.items()}
+        self._buffers = {
+            term: stage.device.framebuffer([texture], stage.mask) for term, texture in self._visibility.items()
+        }
 
     def actions(self) -> list[Action]:
         """What is drawn, one after another."""

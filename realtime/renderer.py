@@ -8,13 +8,13 @@ import numpy as np
 from lightmeter.scenes.points import SurfacePoints
 from lightmeter.scenes.terms import TERMS
 
-from .averager import Averager
 from .baking import Baking
 from .device import Device
 from .display import DisplayChain
+from .gathering import gatherer
 from .gbuffer import CHANNELS, GBuffer
 from .geometry import Geometry
-from .graph import DISPLAY_TERMS, Plan, Step
+from .graph import Plan, Step
 from .lighting import Action, Lighting
 from .projection import viewer
 from .scattered_light import FrameScatteredLight, ScatteredLight
@@ -68,34 +68,36 @@ class Renderer:
         filtering = plan.effect_of("material")
         self._geometry = Geometry(device, plan.scene, plan.effects[filtering][1] if filtering else None)
         self._radiance = device.target(size)
-        self._radiance_buffer = device.framebuffer([self._radiance])
+        masks = plan.sampler is not None and plan.effects[plan.sampler][0].masks
+        # What reads the lit frame reads it in other pixels too, and none may be left out.
+        mask = device.gl.depth_renderbuffer(size) if masks and not plan.reads_scattered else None
+        self._radiance_buffer = device.framebuffer([self._radiance], mask)
+        self._unmasked = None if mask is None else device.framebuffer([], mask)
         gbuffer = GBuffer(device, self._geometry, plan.scene, size, plan.channels, self._radiance, stored=plan.stored())
         self.baking = baking or Baking(device)
         self._scattered = (
             FrameScatteredLight(device, size, self._radiance_buffer, gbuffer.shines) if plan.reads_scattered else None
         )
-        self._stage = Stage(device, plan.scene, self._geometry, gbuffer, size, self.baking, plan, self._scattered)
+        given = device, plan.scene, self._geometry, gbuffer, size, self.baking, plan, self._scattered
+        self._stage = Stage(*given, mask=mask)
         self._passes = self._make_passes(self._stage, separate=False)
-        scene_steps = [step for step in plan.steps if step.writes[0] not in DISPLAY_TERMS]
+        scene_steps = [step for step in plan.steps if not step.of_display]
         self._lighting = Lighting(self._stage, scene_steps, self._radiance_buffer, self._passes)
         self._display = DisplayChain(self._stage, plan)
-        coverage = plan.effect_of("coverage")
+        coverage = plan.sampler
         self.offsets = CENTRE
         if coverage is not None:
             effect, knobs = plan.effects[coverage]
             self.offsets = effect.offsets(knobs) if effect.offsets else CENTRE
         self._coverage = coverage or ""
+        self._is_temporal = coverage is not None and plan.effects[coverage][0].stage == "radiance"
         self._formats: dict[tuple, GBuffer] = {}
         self._held: dict[str, int | None] = {}  # effect to the light whose map its pass for captures holds
-        self._sum = self._accumulator() if len(self.offsets) > 1 else None
+        self._gatherer = gatherer(self._stage, plan, len(self.offsets))
 
     def _make_passes(self, stage: Stage, separate: bool) -> dict[str, ShadingPass]:
-        names = {step.effect for step in self.plan.steps if step.writes[0] not in DISPLAY_TERMS}
+        names = {step.effect for step in self.plan.steps if not step.of_display}
         return {name: ShadingPass(stage, *self.plan.effects[name], separate) for name in names}
-
-    def _accumulator(self):
-        texture = self.device.target(self.size)
-        return self.device.framebuffer([texture]), texture, Averager(self.device)
 
     def _scene_actions(self, offset: tuple[float, float]) -> list[Action]:
         """(pass, effect, draw) of one sample of the frame, up to its radiance."""
@@ -106,32 +108,46 @@ class Renderer:
         if self._scattered is not None:
             self._scattered.remember_emission()
 
-    def _display_actions(self) -> list[Action]:
-        return self._display.actions(self._sum[1] if self._sum else self._radiance)
+    @property
+    def _finished(self):
+        """The texture of the finished scene-linear image."""
+        return self._gatherer.texture if self._gatherer else self._radiance
 
     def draw(self) -> None:
-        """Draw the frame once."""
-        if self._sum:
-            self._sum[0].clear()
-        for offset in self.offsets:
+        """Draw the frame once; where it has a history, that too."""
+        self._unmask()
+        if self._gatherer:
+            self._gatherer.clear()
+        self._draw_samples(self.offsets)
+
+    def _unmask(self) -> None:
+        """Light every pixel again."""
+        if self._unmasked:
+            self._unmasked.clear(depth=1.0)
+
+    def _draw_samples(self, offsets: np.ndarray) -> None:
+        """Draw samples of the scene, gather them, and show what they come to."""
+        for offset in offsets:
             for _, _, action in self._scene_actions(tuple(offset)):
                 action()
-            if self._sum:
-                self._accumulate()
-        for _, _, action in self._display_actions():
+            if self._gatherer:
+                self._gatherer.add(self._radiance)
+        for _, _, action in self._display.actions(self._finished):
             action()
-
-    def _accumulate(self) -> None:
-        assert self._sum
-        framebuffer, _, averager = self._sum
-        averager.add(self._radiance, framebuffer, 1.0 / len(self.offsets))
 
     def render(self) -> Frame:
         """The frame as images."""
         self.draw()
-        radiance = self.device.read(self._sum[1] if self._sum else self._radiance)[..., :3]
+        radiance = self.device.read(self._finished)[..., :3]
         encoded = self._display.encoded
         return Frame(radiance, None if encoded is None else self.device.read(encoded)[..., :3])
+
+    def _draw_next(self, offsets: np.ndarray) -> None:
+        """The next frame: one more sample where there is a history, else all of them anew."""
+        if self._is_temporal:
+            self._draw_samples(offsets)
+        else:
+            self.draw()
 
     def measure(self, frames: int = 20, warm_up: int = 3) -> Times:
         """The frame's and every pass's time: the median over `frames` frames after `warm_up`."""
@@ -140,24 +156,30 @@ class Renderer:
     def record(self, frames: int, warm_up: int, only: str | None = None) -> Recording:
         """Single times of `frames` frames after `warm_up`: in each round the whole frame, then its passes one by one.
 
-        So a round's times were taken under the same conditions, and their ratio is a paired one.
+        So a round's times were taken under the same conditions, and their ratio is a paired one. Of a frame with a
+        history it is what the next frame takes.
 
         Args:
             only: the effect whose passes are wanted beside the whole; None: everyone's, and what sampling costs.
         """
         clock = Clock(self.device)
+        offsets = self.offsets[:1] if self._is_temporal else self.offsets
         for _ in range(warm_up):
             self.draw()
         whole: list[float] = []
-        actions = self._scene_actions(tuple(self.offsets[0])) + self._display_actions()
+        actions = self._scene_actions(tuple(offsets[0]))
+        if self._is_temporal:
+            actions.append((self._coverage, self._coverage, lambda: self._gatherer.add(self._radiance)))
+        actions += self._display.actions(self._finished)
         actions = [action for action in actions if only in (None, action[1])]
         passes: list[tuple[str, str, list[float]]] = [(name, effect, []) for name, effect, _ in actions]
         for _ in range(frames):
-            whole.append(clock.measure(self.draw))
+            whole.append(clock.measure(lambda: self._draw_next(offsets)))
+            self._unmask()
             for (_, _, times), (_, _, action) in zip(passes, actions, strict=True):
                 times.append(clock.measure(action))
         # What further samples cost is what the passes leave of the whole: with some of them only, nobody knows.
-        sampling = self._coverage if self._sum and only is None else ""
+        sampling = self._coverage if len(offsets) > 1 and only is None else ""
         return Recording(whole, passes, sampling, clock.method, clock.disagreement)
 
     def capture(
@@ -203,7 +225,7 @@ class Renderer:
         stage, passes = self._capture_stage
         direct, visibility, frame, verdicts = {}, {}, {}, {}
         for step in self.plan.steps:
-            if step.writes[0] in DISPLAY_TERMS:
+            if step.of_display:
                 continue
             if "scattered" in step.reads:
                 assert stage.scattered is not None

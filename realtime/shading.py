@@ -71,10 +71,12 @@ class ShadingPass:
         program, vertices = self._program(step)
         target.scissor = part
         target.use()
+        masked = device.gl.NOTHING if self._stage.mask is None else device.gl.DEPTH_TEST
+        device.gl.depth_func = "<="
         if step.writes[0] in VISIBILITIES or self._separate:
-            device.gl.enable_only(device.gl.NOTHING)
+            device.gl.enable_only(masked)
         else:
-            device.gl.enable_only(device.gl.BLEND)
+            device.gl.enable_only(device.gl.BLEND | masked)
             device.gl.blend_func = device.gl.ONE, device.gl.ONE
         if step not in self._uniforms:
             self._uniforms[step] = Uniforms(program, self._values(step))
@@ -89,6 +91,7 @@ class ShadingPass:
             textures |= self.own.textures(step.light)
         bind(program, textures)
         device.draw(vertices, 3)
+        device.gl.depth_func = "<"
         target.scissor = None
 
     def forget_values(self) -> None:

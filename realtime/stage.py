@@ -1,6 +1,7 @@
 """What a pass finds on stage: the device, the scene on it, and the G-buffer."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -25,6 +26,7 @@ class Stage:
         plan: the whole frame's.
         scattered: the lit frame so far; None where no effect reads it.
         elsewhere: (4,) the viewer, as `projection.viewer` has it, where the G-buffer is not seen from the camera.
+        mask: the depth buffer of what is lit: a pixel at depth 0 is left out. None: all pixels are lit.
     """
 
     device: Device
@@ -36,6 +38,7 @@ class Stage:
     plan: Plan
     scattered: ScatteredLight | None = None
     elsewhere: np.ndarray | None = None
+    mask: Any = None
 
     @property
     def viewer(self) -> np.ndarray:

@@ -47,12 +47,14 @@ def description(effect) -> dict[str, Any]:
 
 def markdown(effects) -> str:
     """The effects' reference as Markdown, made from their declarations."""
+    from lightmeter.realtime.effect import STAGES
     from lightmeter.scenes.terms import TERMS
 
     lines = ["# Effects", "", "Made by `lightmeter effects --markdown` from the effects' own declarations.", ""]
     for effect in effects:
         lines += [f"## {effect.name}", "", effect.summary, ""]
         lines += [f"- approximates **{term}**: {TERMS[term].meaning}" for term in effect.terms]
+        lines += [f"- works on {STAGES[effect.stage]}"] if "coverage" in effect.terms else []
         lines += [f"- source: {effect.citation}"]
         if stored := effect.bytes_per_pixel(effect.settings({})):
             lines += [f"- what it stores takes {stored} bytes per pixel at its defaults"]
@@ -83,6 +85,7 @@ def _list(effects) -> None:
 def _explain(effect) -> None:
     from rich.table import Table
 
+    from lightmeter.realtime.effect import STAGES
     from lightmeter.scenes.terms import TERMS
     from lightmeter.terminal import console
 
@@ -90,6 +93,8 @@ def _explain(effect) -> None:
     out.print(f"[bold]{effect.name}[/bold]: {effect.summary}\n")
     for term in effect.terms:
         out.print(f"approximates [bold]{term}[/bold]: {TERMS[term].meaning}")
+    if "coverage" in effect.terms:
+        out.print(f"works on {STAGES[effect.stage]}")
     out.print(f"source: {effect.citation}\n")
     if stored := effect.bytes_per_pixel(effect.settings({})):
         out.print(f"What it stores takes {stored} bytes per pixel at its defaults.\n")

@@ -17,6 +17,14 @@ class Canvas:
         interpolate(device, self.texture)
 
 
+class Codes:
+    """A texture of code values in 8 bits, and the framebuffer that draws it."""
+
+    def __init__(self, device: Device, size: Size) -> None:
+        self.texture: Any = device.target(size, dtype="f1")
+        self.framebuffer: Any = device.framebuffer([self.texture])
+
+
 def interpolate(device: Device, texture: Any) -> None:
     """Have `texture` look a picture up bilinearly, and beyond its edge as at it."""
     texture.filter = device.gl.LINEAR, device.gl.LINEAR
