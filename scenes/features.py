@@ -4,6 +4,9 @@ import numpy as np
 
 from .model import Scene, Shape
 
+SCATTERED = ("direct", "visibility", "environment", "environment_visibility", "indirect")
+"""The terms of surfaces that scatter light."""
+
 
 def is_flat(shape: Shape) -> bool:
     """Whether a shape is one flat piece, shading normals included: it can neither shade nor light itself."""
@@ -48,6 +51,8 @@ def missing_terms(scene: Scene) -> dict[str, str]:
         missing["indirect"] = alone
     elif 0 <= scene.max_depth <= 2:
         missing["indirect"] = f"max_depth is {scene.max_depth}: direct light only"
+    if shapes and all(shape.material.is_glass for shape in shapes):
+        missing |= dict.fromkeys(SCATTERED, "every surface is a dielectric solid's, which only mirrors and refracts")
     if not any(shape.material.textures for shape in scene.shapes):
         missing["material"] = "the scene has no textures"
     return missing

@@ -139,6 +139,9 @@ def test_what_the_last_bounce_mirrors_is_lost(device):
 
 def test_who_needs_it():
     known = effects()
+    gem = compile_plan(load("gem"), known)
+    assert [step.writes[0] for step in gem.steps] == ["transmission", "tone", "encode"]
+    assert "only mirrors and refracts" in gem.why_absent("split_sum")
     plan = compile_plan(load("glass-ball"), known)
     assert plan.effect_of("transmission") == "refraction_bounces"
     none = compile_plan(load("torus"), known)
