@@ -42,12 +42,12 @@ def colours(hues: int = 200) -> np.ndarray:
     return mixed / (mixed @ LUMINANCE)[..., None] * 2.0 ** STOPS[None, :, None]
 
 
-def row(name: str, knobs: dict[str, Any]) -> str:
+def row(name: str, knobs: dict[str, Any], view: str) -> str:
     """A curve's errors."""
     settings = effect(name).settings(knobs)
 
     def errors(image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        ours, exact = twin_of(name, "tone")(image, settings), tone.evaluate(image)
+        ours, exact = twin_of(name, "tone")(image, settings), tone.evaluate(image, view)
         return ours - exact, encode.evaluate(ours) - encode.evaluate(exact)
 
     grey, colour = errors(greys()), errors(colours())
@@ -62,7 +62,9 @@ def main() -> None:
     parser.add_argument("--output", type=Path, metavar="FILE", help="write the table here")
     args = parser.parse_args()
     head = "| curve | greys: largest, linear | RMS of codes | colours: RMS of codes | largest |"
-    publish(["\n".join([head, "| --- | ---: | ---: | ---: | ---: |", *(row(*curve) for curve in CURVES)])], args.output)
+    rule = "| --- | ---: | ---: | ---: | ---: |"
+    tables = (["", f"{view}:", "", head, rule, *(row(*curve, view) for curve in CURVES)] for view in tone.VIEWS)
+    publish(("\n".join(lines) for lines in tables), args.output)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from lightmeter.scenes.points import SurfacePoints
 
 _WITHOUT_LIGHT = {
     "Scene": {"name", "summary", "notes"},
-    "Camera": {"name", "near", "far", "exposure", "metering", "aperture"},
+    "Camera": {"name", "near", "far", "exposure", "metering", "aperture", "view"},
     "Shape": {"name", "form"},
     "Material": {"name", "occlusion_texture", "occlusion_strength", "left_out"},
     "Texture": {"min_filter"},

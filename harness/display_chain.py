@@ -78,4 +78,5 @@ def _exactly(term: str, image: np.ndarray, camera: Camera, part: str) -> np.ndar
         return image if part else glare.evaluate(image, camera)
     if term == "exposure":
         return exposure.evaluate(image, camera)
-    return {"tone": tone, "encode": encode}[term].evaluate(image.astype(np.float32))
+    image = image.astype(np.float32)
+    return tone.evaluate(image, camera.view) if term == "tone" else encode.evaluate(image)

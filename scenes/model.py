@@ -380,6 +380,9 @@ class Environment:
         return max(self.mean) > 0
 
 
+View = Literal["aces-1", "aces-2"]
+
+
 @dataclass(frozen=True, eq=False)
 class Camera:
     """A perspective camera (`yfov`) or an orthographic one (`ymag`); the width follows the image's size.
@@ -392,6 +395,7 @@ class Camera:
         exposure: stops, applied before the display transform on both sides; with metering, added to what it gives.
         metering: how the exposure is found in the picture; None: it is set by hand.
         aperture: the opening that light is diffracted at; None: it is not.
+        view: the display transform that tone curves are held against: of ACES 1.0 or of ACES 2.0.
     """
 
     name: str
@@ -403,6 +407,7 @@ class Camera:
     exposure: float = 0.0
     metering: Metering | None = None
     aperture: Aperture | None = None
+    view: View = "aces-1"
 
     def __post_init__(self):
         object.__setattr__(self, "matrix", _frozen(self.matrix, np.float64, (4, 4)))

@@ -117,7 +117,7 @@ class Builder:
         yfov = None if entry.yfov is None else float(np.radians(entry.yfov))
         metering = None if entry.metering is None else Metering(**entry.metering.model_dump())
         aperture = None if entry.aperture is None else self.aperture(entry.aperture)
-        return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure, metering, aperture)
+        return Camera(entry.name, matrix, yfov, entry.ymag, near, far, entry.exposure, metering, aperture, entry.view)
 
     def aperture(self, entry: entries.ApertureEntry) -> Aperture:
         rotation = float(np.radians(entry.rotation))

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
-from lightmeter.scenes.model import MinFilter, Wrap
+from lightmeter.scenes.model import MinFilter, View, Wrap
 from lightmeter.scenes.shapes.limits import ALONG, AROUND, LENGTH, RINGS
 from lightmeter.scenes.validation import Strict
 
@@ -184,6 +184,7 @@ class CameraEntry(Strict):
     )
     metering: MeteringEntry | None = Field(None, description="The exposure is set by hand unless given.")
     aperture: ApertureEntry | None = Field(None, description="Nothing is diffracted unless given.")
+    view: View = Field("aces-1", description="The display transform that tone curves are held against.")
 
     @model_validator(mode="after")
     def _complete(self) -> "CameraEntry":

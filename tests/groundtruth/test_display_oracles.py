@@ -1,10 +1,13 @@
 """The oracles of the display terms and of coverage, and how oracles are found."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
 from lightmeter.groundtruth import oracles
 from lightmeter.groundtruth.oracles import coverage, encode, tone
+from lightmeter.scenes.model import View
 from lightmeter.scenes.optics.color import srgb_decode, srgb_encode
 from lightmeter.scenes.terms import TERMS
 
@@ -20,17 +23,20 @@ def test_every_oracle_is_a_term_and_names_itself():
         oracles.find("lens_flare")
 
 
-def test_tone_is_the_aces_view_without_its_encoding():
+@pytest.mark.parametrize("word", get_args(View))
+def test_tone_is_the_aces_view_without_its_encoding(word):
     """Against the view itself with its sRGB code values, decoded by IEC 61966-2-1; the two inverses differ by 2e-7."""
     import PyOpenColorIO
 
-    config = PyOpenColorIO.Config.CreateFromBuiltinConfig(tone.CONFIG)
-    view = PyOpenColorIO.DisplayViewTransform(src=tone.SOURCE, display=tone.DISPLAY, view=tone.VIEW)
+    name, of_display = tone.VIEWS[word]
+    config = PyOpenColorIO.Config.CreateFromBuiltinConfig(name)
+    view = PyOpenColorIO.DisplayViewTransform(src=tone.SOURCE, display=tone.DISPLAY, view=of_display)
     image = np.random.default_rng(0).lognormal(-1, 2, (64, 64, 3)).astype(np.float32)
     codes = image.copy()
     config.getProcessor(view).getOptimizedCPUProcessor(PyOpenColorIO.OPTIMIZATION_LOSSLESS).applyRGB(codes)
     expected = np.clip(srgb_decode(codes.astype(float)), 0, 1)
-    np.testing.assert_allclose(tone.evaluate(image), expected, atol=5e-6)
+    np.testing.assert_allclose(tone.evaluate(image, word), expected, atol=5e-6)
+    assert np.abs(tone.evaluate(image, "aces-1") - tone.evaluate(image, "aces-2")).max() > 0.1
 
 
 def test_tone_has_its_known_values_and_lets_no_wrong_pixel_pass():
