@@ -2,8 +2,8 @@
 
 The ACES SDR view for an sRGB display, by OpenColorIO: of ACES 1.0, from its built-in ACES 1.3 config, what real-time
 fits such as Narkowicz's and Hill's imitate; or of ACES 2.0, where the camera says so. The sRGB encoding that the view
-ends with is taken off again by OpenColorIO's own inverse (that is the term `encode`), and the result is clipped to 0…1, as a
-display does: the view of ACES 1.0 itself reaches 1.09 for very bright light.
+ends with is taken off again by OpenColorIO's own inverse (that is the term `encode`), and the result is clipped to 0…1,
+as a display does: the view of ACES 1.0 itself reaches 1.09 for very bright light.
 """
 
 from functools import cache
