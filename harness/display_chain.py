@@ -69,14 +69,24 @@ class Chained:
 
 
 def _exactly(term: str, image: np.ndarray, camera: Camera, part: str) -> np.ndarray:
-    """A display term by its oracle. A part of glare has no truth: diffraction has no reflections in a lens."""
-    from lightmeter.groundtruth.oracles import encode, exposure, glare, tone
+    """A display term by its oracle, and no other is imported.
 
-    if term == "coverage":
-        return image  # an image without aliasing needs no filter
+    A part of glare has no truth: diffraction has no reflections in a lens. An image without aliasing needs no filter.
+    """
+    if term == "coverage" or part:
+        return image
     if term == "glare":
-        return image if part else glare.evaluate(image, camera)
+        from lightmeter.groundtruth.oracles import glare
+
+        return glare.evaluate(image, camera)
     if term == "exposure":
+        from lightmeter.groundtruth.oracles import exposure
+
         return exposure.evaluate(image, camera)
-    image = image.astype(np.float32)
-    return tone.evaluate(image, camera.view) if term == "tone" else encode.evaluate(image)
+    if term == "tone":
+        from lightmeter.groundtruth.oracles import tone
+
+        return tone.evaluate(image.astype(np.float32), camera.view)
+    from lightmeter.groundtruth.oracles import encode
+
+    return encode.evaluate(image.astype(np.float32))
