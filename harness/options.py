@@ -260,5 +260,8 @@ def say(message: str) -> None:
 
 
 def names(text: str) -> tuple[str, ...]:
-    """The names in a list with commas."""
-    return tuple(name.strip() for name in text.split(",") if name.strip())
+    """The names in a list with commas, for `type=`."""
+    found = tuple(name.strip() for name in text.split(",") if name.strip())
+    if not found:  # an empty list of effects would mean all of them
+        raise argparse.ArgumentTypeError(f"expected names with commas between them, got {text!r}")
+    return found

@@ -42,6 +42,7 @@ WRONG = [
     ((*COMPARE, "--only", "cook_torance"), "'cook_torrance'"),
     ((*COMPARE, "--without", "cook_torance"), "'cook_torrance'"),
     ((*COMPARE, "--use", "sgrb"), "'srgb'"),
+    ((*COMPARE, "--only="), "expected names"),
     ((*COMPARE, "--reference", "nowhere"), "nowhere"),
     (("reference", "plnae"), "'plane'"),
     (("reference", "plane", "--size", "x"), "WxH"),
