@@ -20,11 +20,12 @@ class Baking:
         self.milliseconds: dict[str, float] = {}
 
     def of(self, effect: str, bake: Callable[[], Any]) -> Any:
-        """What the effect bakes, baked when it is first asked for."""
+        """What the effect bakes, baked when it is first asked for; None where the scene gives it nothing to bake."""
         if effect not in self._kept:
             self._device.finish()
             start = time.perf_counter()
             self._kept[effect] = bake()
             self._device.finish()
-            self.milliseconds[effect] = (time.perf_counter() - start) * 1e3
+            if self._kept[effect] is not None:
+                self.milliseconds[effect] = (time.perf_counter() - start) * 1e3
         return self._kept[effect]

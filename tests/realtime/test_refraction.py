@@ -129,6 +129,14 @@ def test_surfaces_around_stand_before_the_environment(device, name):
         np.testing.assert_allclose(made.frame["transmission"][front], expected, atol=2e-4)
 
 
+def test_a_solid_alone_bakes_no_surroundings(device):
+    ball = Shape("ball", shapes.sphere(0.9, segments=16, rings=8), glass("clear", 1.7))
+    scene = scene_of(ball, view=camera(), radiance=(1.0, 1.0, 1.0))
+    for name in TECHNIQUES:
+        baked = renderer(device, scene, (8, 8), Choice(use=(name,))).baking.milliseconds
+        assert set(baked) == ({name} if name == "refraction_bounces" else set())
+
+
 def test_what_the_last_bounce_mirrors_is_lost(device):
     ball = Shape("ball", shapes.sphere(0.9, segments=48, rings=24), glass("clear", 1.7))
     means = [
