@@ -293,6 +293,14 @@ def _of_display(candidates: list[Effect], term: str, choice: Choice) -> list[Eff
     return [effect for effect in found if effect is not None]
 
 
+def _in_one_place(one: Effect, other: Effect) -> bool:
+    """Whether a frame takes one of two effects at most: both vary the same part, or both choose the samples."""
+    if one.part != other.part:
+        return False
+    both = set(one.terms) & set(other.terms)
+    return bool(one.part) or ("coverage" in both and "display" not in (one.stage, other.stage))
+
+
 def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: list[Effect], choice: Choice) -> LeftOut:
     """Why a candidate was not taken."""
     lit = any(effect.lights(scene, light) for light in scene.all_lights)
@@ -301,7 +309,7 @@ def _superseded(scene: Scene, effect: Effect, steps: list[Step], candidates: lis
     if effect.stage == "display" and not any(step.writes == ("encode",) for step in steps):
         return LeftOut(effect.name, "it filters code values, and nothing in this frame encodes")
     others = sorted({s.effect for s in steps if set(s.writes) & set(effect.terms)})
-    others += [e.name for e in candidates if effect.part and e.part == effect.part][:1]
+    others += [e.name for e in candidates if _in_one_place(e, effect) and e.name not in choice.without][:1]
     if others:
         given = {term for step in steps for term in step.writes}
         terms = [term for term in effect.terms if term in given or term not in DRAWN_TERMS]

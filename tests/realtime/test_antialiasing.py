@@ -137,3 +137,10 @@ def test_a_frame_with_a_history_takes_what_its_next_one_takes(device):
 
 def renderer_of(device, name: str) -> Renderer:
     return Renderer(device, compile_plan(load("plane"), effects(), Choice(use=(name,))), (32, 32))
+
+
+def test_one_effect_chooses_the_samples_and_the_others_say_which():
+    plan = compile_plan(load("plane"), effects())
+    assert plan.why_absent("taa") == plan.why_absent("msaa") == "supersampling gives coverage already"
+    asked = compile_plan(load("plane"), effects(), Choice(use=("taa",)))
+    assert asked.why_absent("supersampling") == "taa gives coverage already"
