@@ -5,7 +5,9 @@ import math
 from .model import Material, Vector
 
 
-def glass(name: str, ior: float, attenuation_color: Vector = (1.0, 1.0, 1.0), attenuation_distance: float = 1.0):
+def glass(
+    name: str, ior: float, attenuation_color: Vector = (1.0, 1.0, 1.0), attenuation_distance: float = 1.0
+) -> Material:
     """The material of a smooth dielectric solid (KHR_materials_volume's parameters).
 
     Args:

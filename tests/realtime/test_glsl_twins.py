@@ -58,6 +58,7 @@ NOT_TWINNED = {
     "horizons.glsl": {"horizon_towards", "occlusion"},  # likewise
     "occluded_ambient.glsl": {"occluded_ambient"},  # hands the surface on: test_ambient_visibility.py
     "cube_maps.glsl": {"place_in_cube"},  # uniforms handed on: test_reflections.py
+    "solid_front.glsl": {"entering", "behind_front"},  # take a structure: test_refraction.py
     "seen_around.glsl": {"seen_around", "seen_behind"},  # looks up: test_refraction.py
     "refraction_bounces.glsl": {"from_within"},  # follows a ray through textures: test_refraction.py
     "shadow_keep.glsl": {"keep"},  # derivatives: test_filtered_shadows.py

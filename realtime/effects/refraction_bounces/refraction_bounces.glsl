@@ -1,6 +1,6 @@
-#include "dielectric.glsl"
+// The planes first: a file that both include must not lie within the other's `#ifdef`.
 #include "solid_planes.glsl"
-#include "seen_around.glsl"
+#include "solid_front.glsl"
 
 // Everything that comes out of a solid towards where `inside` came from; all positions are from the solid's middle.
 vec3 from_within(int solid, vec3 start, vec3 inside, float ior, vec3 absorption) {
@@ -22,14 +22,13 @@ vec3 from_within(int solid, vec3 start, vec3 inside, float ior, vec3 absorption)
 
 vec3 transmission(Surface surface) {
     if (surface.ior <= 0.0) return vec3(0.0);
-    float cosine = min(dot(surface.normal, surface.view), 1.0);
-    float mirrored = dielectric_reflectance(cosine, surface.ior);
-    vec3 inside = refracted(surface.normal, surface.view, cosine, surface.ior);
+    float mirrored;
+    vec3 inside = entering(surface, mirrored);
     vec3 through = vec3(0.0);
     for (int i = 0; i < SOLIDS; ++i) {
         vec3 place = surface.position;
         if (all(greaterThanEqual(place, solid_low[i])) && all(lessThanEqual(place, solid_high[i])))
             through = from_within(i, place - solid_middle[i], inside, surface.ior, surface.absorption);
     }
-    return mix(through, seen_around(reflect(-surface.view, surface.normal)), mirrored);
+    return behind_front(surface, through, mirrored);
 }

@@ -1,5 +1,4 @@
-#include "dielectric.glsl"
-#include "seen_around.glsl"
+#include "solid_front.glsl"
 #include "project.glsl"
 uniform sampler2D back_normal;
 uniform sampler2D back_position;
@@ -13,9 +12,8 @@ vec3 leaving(vec3 outward, vec3 inside, float ior) {
 
 vec3 transmission(Surface surface) {
     if (surface.ior <= 0.0) return vec3(0.0);
-    float cosine = min(dot(surface.normal, surface.view), 1.0);
-    float mirrored = dielectric_reflectance(cosine, surface.ior);
-    vec3 inside = refracted(surface.normal, surface.view, cosine, surface.ior);
+    float mirrored;
+    vec3 inside = entering(surface, mirrored);
     ivec2 size = textureSize(back_normal, 0);
     vec3 straight = texelFetch(back_position, ivec2(gl_FragCoord.xy), 0).xyz;
     float thickness = length(straight - surface.position);
@@ -28,5 +26,5 @@ vec3 transmission(Surface surface) {
     float travelled = back.w > 0.0 ? length(texelFetch(back_position, place, 0).xyz - surface.position) : thickness;
     vec3 left = exp(-surface.absorption * travelled);
     vec3 through = left * seen_around(leaving(outward, inside, surface.ior));
-    return mix(through, seen_around(reflect(-surface.view, surface.normal)), mirrored);
+    return behind_front(surface, through, mirrored);
 }
